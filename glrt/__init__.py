@@ -148,7 +148,7 @@ _HOMES = {
 
 
 def __getattr__(name: str) -> "Any":
-    """A public name, imported from where it is defined."""
+    """Import and return a public name; AttributeError for any other name."""
     if name not in _HOMES:
         raise AttributeError(f"module 'glrt' has no attribute {name!r}")
     from importlib import import_module

@@ -1,4 +1,4 @@
-"""`glrt.render`: a scene to a picture in one call; `glrt.paths`: the paths of one pixel of it."""
+"""`glrt.render` renders a scene in one call; `glrt.paths` returns the light paths of a pixel."""
 
 from collections.abc import Sequence
 from typing import Unpack
@@ -19,13 +19,13 @@ def render(
     part: tuple[int, int] | None = None,
     **settings: Unpack[FrameOptions],
 ) -> Image:
-    """Render a scene; `settings` are fields of Settings, the rest comes from the scene.
+    """Render a scene and return the picture.
 
-    A `part` (k, n) renders the k-th of n parts of the samples, k from 1; `glrt.merge` puts parts
-    together.
+    `settings` are fields of Settings; the scene's `[render]` table supplies the others. A `part`
+    (k, n) renders the k-th of n parts of the samples, with k from 1; `glrt.merge` joins the parts.
 
-    Raises UsageError for a setting out of range, ContextError without OpenGL, RenderError, and
-    SceneError for a scene beyond the driver.
+    Raises UsageError for a setting out of range, ContextError without OpenGL, RenderError if the
+    driver fails, and SceneError for a scene beyond the limits of the driver.
     """
     renderer = Renderer(
         scene, context=context, tier="baked", part=part, samples=samples, **settings
@@ -44,16 +44,18 @@ def paths(
     context: Context | Choice = "auto",
     **settings: Unpack[FrameOptions],
 ) -> PixelPaths:
-    """The paths of the samples of a pixel: of all, or of those with these `numbers`, from 0.
+    """Return the light paths that the samples of a pixel trace.
 
-    `pixel` is its column and row in the full frame, from 0, row 0 on top. `settings` are fields of
-    Settings, the rest comes from the scene. The paths are those that `render` traces with the same
-    settings: their light adds up to its pixel, to the bit on software drivers. With caustics "on"
-    `particles` of the result are those from lamps that reach the pixel, with the paths of 64.
+    `numbers` selects samples by number, from 0; the default is all. `pixel` is the column and row
+    in the full frame, from 0, with row 0 on top. `settings` are fields of Settings; the scene's
+    `[render]` table supplies the others. `render` traces the same paths with the same settings:
+    their light adds up to its pixel, bit for bit on software drivers. With caustics "on",
+    `particles` of the result holds the particles from lamps that reach the pixel, and the paths of
+    the 64 brightest.
 
-    Raises UsageError for a pixel outside of the picture, a number beyond the samples or a lighting
-    model before path tracing, ContextError without OpenGL 4.3, RenderError, and SceneError for a
-    scene beyond the driver.
+    Raises UsageError for a pixel outside the picture, a number beyond the samples, or a lighting
+    model older than path tracing. Raises ContextError without OpenGL 4.3, RenderError if the driver
+    fails, and SceneError for a scene beyond the limits of the driver.
     """
     wanted = settings_for(scene.render, samples=samples, **settings)
     return pixel_paths(scene, wanted, pixel, numbers, context=context)

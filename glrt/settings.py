@@ -1,6 +1,6 @@
 """Every render setting, once: default, range, unit, help and the cost of a change.
 
-The command line, the panel and the kernel read these models; so does `[render]` in a scene.
+The command line, the panel, the kernel and the `[render]` table of scenes use these models.
 """
 
 from dataclasses import dataclass
@@ -23,36 +23,36 @@ Denoise = Literal["none", "oidn", "nlm", "auto"]
 Reuse = Literal["none", "temporal", "spatial", "both"]
 
 MAX_SAMPLES = 1 << 20  # a float32 running mean is good up to here
-BLOCKS = {"sobol": 16, "sobol64": 64, "independent": 1}  # samples of an observation, by sampler
-GUIDES: tuple[Aov, ...] = ("albedo", "normal")  # of a denoiser
+BLOCKS = {"sobol": 16, "sobol64": 64, "independent": 1}  # samples in an observation, by sampler
+GUIDES: tuple[Aov, ...] = ("albedo", "normal")  # AOVs that guide a denoiser
 OF_PATHS: tuple[Aov, ...] = ("bounces",)  # AOVs of whole paths, not of first surfaces
 
 
 class Cost(StrEnum):
-    """What a change of a setting does to a running render."""
+    """The effect of a changed setting on a running render."""
 
-    FREE = "free"  # the display alone
-    RELIGHT = "relight"  # weights of film layers: no sample is lost
+    FREE = "free"  # only the display changes
+    RELIGHT = "relight"  # weights of film layers change: no sample is lost
     RESTART = "restart"  # accumulation starts again
-    RECOMPILE = "recompile"  # another kernel
+    RECOMPILE = "recompile"  # another kernel is compiled
 
 
 @dataclass(frozen=True)
 class Editable:
-    """What a widget needs to know of a field beside its limits: part of its annotation."""
+    """Data that a widget needs for a field in addition to its limits, stored in the annotation."""
 
-    cost: Cost = Cost.RESTART  # of an edit
+    cost: Cost = Cost.RESTART  # effect of an edit
     unit: str = ""
     slider: tuple[float, float] | None = None  # a useful range for dragging
 
 
 def editable_of(field: FieldInfo) -> Editable:
-    """The control of a field of a model."""
+    """Return the Editable in the annotation of a model's field, or a default one."""
     return next((part for part in field.metadata if isinstance(part, Editable)), Editable())
 
 
 class Frozen(BaseModel):
-    """A value: immutable, without unknown keys, infinities or NaN."""
+    """An immutable value that rejects unknown keys, infinities and NaN."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
@@ -88,7 +88,7 @@ Crop = tuple[Pixels, Pixels, Pixels, Pixels]
 
 
 class Settings(RenderSettings):
-    """All settings of a render: those of `[render]`, and those that a scene file cannot set."""
+    """All settings of a render: the fields of `[render]`, and more that a scene file cannot set."""
 
     crop: Annotated[Crop | None, Editable(Cost.RESTART, "pixels")] = Field(
         None, description="the part of the picture to render: left, top, width, height"
@@ -168,17 +168,17 @@ class Settings(RenderSettings):
 
     @property
     def size(self) -> tuple[int, int]:
-        """Width and height of the picture in pixels: of the crop, if there is one."""
+        """Width and height in pixels of the picture, or of the crop if there is one."""
         return (self.crop or (0, 0, self.width, self.height))[2:]
 
     @property
     def block(self) -> int:
-        """Samples of an observation; the error of a picture is taken over whole ones."""
+        """Number of samples in an observation; errors are estimated over whole observations."""
         return BLOCKS[self.sampler]
 
     @property
     def gathered(self) -> tuple[Aov, ...]:
-        """The AOVs that a render gathers: those that are asked for, and guides of the denoiser."""
+        """AOVs that a render gathers: the requested ones, and the guides of a denoiser."""
         wanted = self.aov + (GUIDES if self.denoise != "none" else ())
         return tuple(aov for aov in get_args(Aov) if aov in wanted)
 
@@ -206,7 +206,7 @@ class Settings(RenderSettings):
 
 
 class FrameOptions(TypedDict, total=False):
-    """The fields of Settings as keywords, but samples: for editors. A test holds the two alike."""
+    """The fields of Settings except `samples`, as keywords for editors; a test keeps both alike."""
 
     width: int
     height: int
@@ -230,13 +230,13 @@ class FrameOptions(TypedDict, total=False):
 
 
 class SettingOptions(FrameOptions, total=False):
-    """All fields of Settings as keywords."""
+    """All fields of Settings, as keywords for editors."""
 
     samples: int
 
 
 def settings_for(base: RenderSettings, **overrides: Any) -> Settings:
-    """`base` with other values of some fields; UsageError names each bad one and its range."""
+    """Return `base` with some fields replaced; UsageError names each bad field and its range."""
     values = {**base.model_dump(), **overrides}
     try:
         return Settings.model_validate(values)
@@ -245,7 +245,7 @@ def settings_for(base: RenderSettings, **overrides: Any) -> Settings:
 
 
 def cost_of_change(before: Settings, after: Settings) -> Cost:
-    """The most expensive class among the fields that differ."""
+    """Return the highest cost among the fields that differ; FREE if none does."""
     order = list(Cost)
     changed = [
         cost_of(name)
@@ -256,7 +256,7 @@ def cost_of_change(before: Settings, after: Settings) -> Cost:
 
 
 def cost_of(name: str) -> Cost:
-    """The cost of a change of a field of Settings."""
+    """Return the cost of a change of the named field of Settings."""
     return editable_of(Settings.model_fields[name]).cost
 
 

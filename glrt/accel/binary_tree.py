@@ -7,7 +7,7 @@ import numpy as np
 
 from glrt.accel.binned_splits import Floats, Ints, are_right, halved
 
-PORTION = 1 << 16  # boxes that are divided at once: so many stay in a cache, and memory is bounded
+PORTION = 1 << 16  # boxes that are divided at once: they fit into a cache, and memory is bounded
 
 
 class BinaryTree(NamedTuple):
@@ -15,8 +15,8 @@ class BinaryTree(NamedTuple):
 
     lower: Floats  # (nodes, 3): corners of the boxes
     upper: Floats
-    left: Ints  # (nodes,): the left child, which the right one follows; -1 of leaves
-    item: Ints  # (nodes,): the box of a leaf; -1 of others
+    left: Ints  # (nodes,): the left child, which the right one follows; -1 for leaves
+    item: Ints  # (nodes,): the box of a leaf; -1 for other nodes
 
 
 class _Level(NamedTuple):
@@ -33,7 +33,7 @@ class _Level(NamedTuple):
 
 
 def build(lower: Floats, upper: Floats, halves: bool = False) -> BinaryTree:
-    """The tree over n > 0 boxes with the corners `lower` and `upper`, (n, 3) each.
+    """Return the tree over n > 0 boxes with the corners `lower` and `upper`, (n, 3) each.
 
     With `halves` every node is divided into halves: a worse tree, of the least depth.
     """
@@ -53,13 +53,13 @@ def build(lower: Floats, upper: Floats, halves: bool = False) -> BinaryTree:
 
 
 def _without(level: _Level, gone: np.ndarray[tuple[int], np.dtype[np.bool_]]) -> _Level:
-    """The nodes that are not `gone`, with their boxes."""
+    """Return the level without the nodes that are `gone`, and without their boxes."""
     kept = np.repeat(~gone, level.size)
     return _Level(level.node[~gone], level.size[~gone], level.items[kept])
 
 
 def _children(level: _Level, left: Ints, lower: Floats, upper: Floats, halves: bool) -> _Level:
-    """The two children of all nodes of a level."""
+    """Return the next level: the two children of each node."""
     if not len(level.node):
         return level
     node = np.repeat(np.arange(len(level.size)), level.size)
@@ -78,7 +78,7 @@ def _children(level: _Level, left: Ints, lower: Floats, upper: Floats, halves: b
 
 
 def _portions(level: _Level) -> Iterator[tuple[slice, slice]]:
-    """The nodes of a level, some at a time, and their boxes: PORTION, or those of one node."""
+    """Yield some nodes of a level at a time, and their boxes: PORTION, or those of one node."""
     start, first = level.start, 0
     end = start + level.size
     while first < len(start):
@@ -90,7 +90,7 @@ def _portions(level: _Level) -> Iterator[tuple[slice, slice]]:
 def _boxes(
     levels: list[Ints], left: Ints, item: Ints, lower: Floats, upper: Floats
 ) -> tuple[Floats, Floats]:
-    """Corners of the boxes of all nodes, from those of the items."""
+    """Return the corners of the boxes of all nodes, from those of the items."""
     corners = np.empty((2, len(left), 3))
     leaf = item >= 0
     for corner, boxes, most in zip(corners, (lower, upper), (np.minimum, np.maximum), strict=True):

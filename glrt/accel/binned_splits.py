@@ -1,4 +1,4 @@
-"""How boxes are divided between the children of nodes, for all nodes of a level at once.
+"""Divide boxes between the children of nodes, for all nodes of a level at once.
 
 Splits minimise the binned surface area heuristic (Wald, "On Fast Construction of SAH-Based Bounding
 Volume Hierarchies", 2007): the box centres of a node are sorted into BINS bins along each axis, and
@@ -17,14 +17,14 @@ BINS = 16  # along each axis
 
 
 def are_right(start: Ints, size: Ints, node: Ints, lower: Floats, upper: Floats) -> Bools:
-    """Whether each box belongs to the right child of its node, (n,).
+    """Return whether each box belongs to the right child of its node, (n,).
 
-    The boxes of a node follow each other: `size` from `start` on, (nodes,) each; `node`, (n,), is
-    that of each box. Both children of a node with two or more boxes get at least one. A node whose
-    centres coincide is divided into halves.
+    The boxes of a node follow each other, `size` boxes from `start` on, (nodes,) each; `node`,
+    (n,), is the node of each box. Both children of a node with two or more boxes get at least one.
+    A node whose centres coincide is divided into halves.
     """
     is_right: Bools = np.arange(len(node)) > start[node]
-    large = size > 2  # of two boxes each is a child
+    large = size > 2  # with two boxes, each is a child
     if not large.any():
         return is_right
     kept = np.repeat(large, size)
@@ -49,9 +49,9 @@ def are_right(start: Ints, size: Ints, node: Ints, lower: Floats, upper: Floats)
 
 
 def _split_costs(nodes: int, node: Ints, bins: Ints, lower: Floats, upper: Floats) -> Floats:
-    """Surface area times number of boxes, summed over both sides of each split along one axis.
+    """Return surface area times number of boxes, summed over both sides of each split.
 
-    Shape (nodes, BINS - 1); infinite where a side has no boxes.
+    The splits lie along one axis. Shape (nodes, BINS - 1); infinite where a side has no boxes.
     """
     key = node * BINS + bins
     count = np.bincount(key, minlength=nodes * BINS).reshape(nodes, BINS)
@@ -67,7 +67,7 @@ def _split_costs(nodes: int, node: Ints, bins: Ints, lower: Floats, upper: Float
 
 
 def _cumulative_costs(count: Ints, low: Floats, high: Floats) -> Floats:
-    """Surface area times number of all boxes in bins 0 to k, for each k; infinite without boxes.
+    """Return surface area times number of all boxes in bins 0 to k, for each k; inf without boxes.
 
     `count` and the result are (nodes, BINS), the corners `low` and `high` (3, nodes, BINS).
     """
@@ -78,7 +78,7 @@ def _cumulative_costs(count: Ints, low: Floats, high: Floats) -> Floats:
 
 
 def halved(start: Ints, size: Ints, node: Ints, lower: Floats, upper: Floats) -> Bools:
-    """The same, but every node is divided into halves, along its longest axis."""
+    """Return the same as `are_right`, but divide every node into halves along its longest axis."""
     centre = lower + upper
     extent = np.maximum.reduceat(centre, start) - np.minimum.reduceat(centre, start)
     along = np.take_along_axis(centre, extent.argmax(axis=1)[node][:, None], 1)[:, 0]
@@ -89,6 +89,6 @@ def halved(start: Ints, size: Ints, node: Ints, lower: Floats, upper: Floats) ->
 
 
 def surface(size: Floats) -> Floats:
-    """Half the surface area of boxes with edges `size`, (3, ...)."""
+    """Return half the surface area of boxes with edges `size`, (3, ...)."""
     area: Floats = size[0] * size[1] + size[1] * size[2] + size[2] * size[0]
     return area

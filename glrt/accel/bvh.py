@@ -72,7 +72,7 @@ def refit(item: Ints, skip: Ints, lower: Floats, upper: Floats) -> Tree:
 
 
 def _without_own_items(level: _Level) -> _Level:
-    """The nodes that have children, each without its first item, which the node itself holds."""
+    """Return the nodes with children, each without its first item, which the node itself holds."""
     is_below = np.ones(len(level.items), bool)
     is_below[level.start] = False
     keep = level.size > 1
@@ -80,13 +80,13 @@ def _without_own_items(level: _Level) -> _Level:
 
 
 def _children(level: _Level, lower: Floats, upper: Floats) -> _Level:
-    """The children of all nodes of a level: two for each node, one where a single item is left."""
+    """Return the children of a level's nodes: two for each, or one where a single item is left."""
     if not len(level.place):
         return level
     node = np.repeat(np.arange(len(level.size)), level.size)
     boxes = lower[level.items], upper[level.items]
     is_right = are_right(level.start, level.size, node, *boxes)
-    is_right ^= is_right[level.start][node]  # largest item left: a hit there hides the rest
+    is_right ^= is_right[level.start][node]  # the largest item is left: a hit there hides the rest
     order = np.argsort(2 * node + is_right, kind="stable")
     right = np.bincount(node, is_right).astype(int)
     left = level.size - right

@@ -12,7 +12,7 @@ Array = np.ndarray[Any, Any]
 
 
 def light_probabilities(power: Sequence[float]) -> Array:
-    """The probability of choosing each lamp, (n,): half proportional to power, half uniform.
+    """Return the probability of choosing each lamp, (n,): half proportional to power, half uniform.
 
     Every lamp has a probability above 0. It is uniform if the total power is 0.
     """
@@ -74,14 +74,14 @@ def _cut(group: Array, place: Array, weight: Array) -> list[Array]:
 
 
 def _cost(group: Array, place: Array, weight: Array) -> float:
-    """Total weight times variance of a group; -1 for a single point, which cannot be split."""
+    """Return total weight times variance of a group; -1 for a point, which cannot be split."""
     if len(group) == 1:
         return -1.0
     return float(weight[group].sum() * _spread(group, place, weight)[1].sum())
 
 
 def _spread(group: Array, place: Array, weight: Array) -> tuple[Array, Array]:
-    """Weighted mean and variance of the points of a group along each axis, (3,) each."""
+    """Return weighted mean and variance of the points of a group along each axis, (3,) each."""
     share = weight[group] / weight[group].sum()
     mean = share @ place[group]
     return mean, share @ (place[group] - mean) ** 2

@@ -1,8 +1,8 @@
-"""The tree over bounded shapes of a scene, as slots for the kernel: a shape in each leaf.
+"""The BVH over bounded shapes of a scene, as slots for the kernel: a shape in each leaf.
 
-Which boxes lie where is a matter of the shapes alone; what stands in the leaves is relative to the
-camera, as the shapes themselves are. So a camera that moves writes leaves anew, and builds nothing.
-Leaves of triangles are relative to the middle of the grid: those stay.
+The boxes depend on the shapes alone, but the content of leaves is relative to the camera, as the
+shapes themselves are. So a moved camera rewrites leaves and builds nothing. Leaves of triangles are
+relative to the middle of the grid, and stay the same.
 """
 
 from collections.abc import Callable, Mapping
@@ -17,15 +17,15 @@ from glrt.core.errors import SceneError
 
 Array = np.ndarray[Any, Any]
 
-MOST_HEIGHT = 16  # levels: the kernel keeps an entry for each in registers
-STACK_STEP = 4  # a kernel does for trees of so many heights
+MOST_HEIGHT = 16  # levels: the kernel keeps a stack entry for each in registers
+STACK_STEP = 4  # levels by which the stack grows, so that one kernel fits several heights
 
 
 class Family(NamedTuple):
-    """A kind of shape in leaves."""
+    """How leaves hold a kind of shape."""
 
     code: int  # as in structs/shapes.glsl
-    fields: tuple[str, ...]  # of its struct, in the order of the words of a leaf
+    fields: tuple[str, ...]  # fields of its struct, in the order of the words of a leaf
 
 
 class Boxes(NamedTuple):
@@ -35,28 +35,28 @@ class Boxes(NamedTuple):
     first: int  # the kernel's number of the first shape
     lower: Floats  # (n, 3)
     upper: Floats
-    words: Callable[[], Words] | None = None  # leaves that no camera changes, (n, SLOT)
+    words: Callable[[], Words] | None = None  # makes leaves that no camera changes, (n, SLOT)
 
 
 class ShapeTree(NamedTuple):
-    """A tree without the content of those leaves that depend on the camera."""
+    """A BVH without the content of leaves that depend on the camera."""
 
     wide: WideTree
     grid: Grid
-    boxes: tuple[Boxes, ...]  # of those
+    boxes: tuple[Boxes, ...]  # boxes of these leaves
     place: Ints  # (n,): their slots, box after box
 
     def stack_with(self, height: int) -> int:
-        """Entries that the kernel needs room for, with trees of such a height below leaves."""
+        """Return the stack entries that the kernel needs, with BVHs of this height below leaves."""
         return -(-(self.wide.height + height) // STACK_STEP) * STACK_STEP
 
 
 def build(
     boxes: tuple[Boxes, ...], grid: Grid, least: int = 0, most_height: int = MOST_HEIGHT
 ) -> ShapeTree:
-    """The tree over one or more shapes, of `least` slots or more; `grid` holds them all.
+    """Return the BVH over one or more shapes, of `least` slots or more; `grid` holds them all.
 
-    Raises SceneError where they lie so that no tree of `most_height` levels is found.
+    Raises SceneError if no tree of at most `most_height` levels is found.
     """
     lower = np.concatenate([some.lower for some in boxes])
     upper = np.concatenate([some.upper for some in boxes])
@@ -72,7 +72,7 @@ def build(
         )
     place = np.empty(len(lower), int)
     place[tree.item[leaves.node]] = leaves.place
-    del tree, leaves  # what follows needs as much memory
+    del tree, leaves  # the next steps need as much memory
     ends = np.cumsum([len(some.lower) for some in boxes])
     places = np.split(place, ends[:-1])
     for some, where in zip(boxes, places, strict=True):
@@ -84,9 +84,9 @@ def build(
 
 
 def slots_of(tree: ShapeTree, arrays: Mapping[str, Array], families: Mapping[str, Family]) -> Words:
-    """The slots with their leaves, of shapes in `arrays` of rows by the names of their structs.
+    """Return the slots with their leaves; `arrays` has the rows of shapes by struct name.
 
-    The same array again where no leaf depends on the camera.
+    If no leaf depends on the camera, this is the tree's own array, not a copy.
     """
     if not tree.boxes:
         return tree.wide.slots
@@ -106,5 +106,5 @@ def slots_of(tree: ShapeTree, arrays: Mapping[str, Array], families: Mapping[str
 
 
 def _words(rows: Array, field: str) -> Words:
-    """The bits of a field, (n, 1) or (n, 3)."""
+    """Return the bits of a field, (n, 1) or (n, 3)."""
     return np.ascontiguousarray(rows[field]).reshape(len(rows), -1).view(np.uint32)

@@ -1,4 +1,4 @@
-"""The tree over the spheres as rows of the struct `Node` of structs/shapes.glsl, 32 bytes each.
+"""The BVH over the spheres as rows of the struct `Node` of structs/shapes.glsl, 32 bytes each.
 
 Corners of boxes are stored as 16-bit coordinates on a grid, in cells, rounded outwards. The grid
 covers the boxes below the root. The root itself holds the largest sphere, so that a huge sphere
@@ -14,7 +14,7 @@ from glrt.accel import bvh
 
 Array = np.ndarray[Any, Any]
 
-# Relative margin of boxes, as of rays in shapes/sphere_tree.glsl: far above float32 rounding.
+# Relative margin of boxes, and of rays in shapes/sphere_tree.glsl: far above float32 rounding.
 SLACK = 2.0**-18
 MOST_CELLS = 2**16 - 1  # along each axis of the grid
 
@@ -46,13 +46,13 @@ def pack_nodes(spheres: Array, dtype: np.dtype[Any], known: Array | None = None)
 
 
 def _order(nodes: Array) -> tuple[Array, Array]:
-    """`item` and `skip` of a packed tree (see `bvh.Tree`), (n,) each."""
+    """Return `item` and `skip` of a packed tree (see `bvh.Tree`), (n,) each."""
     links = nodes["box"][1:, 3].astype(int)
     return links & 0xFFFF, (links >> 16) + np.arange(len(links)) + 1
 
 
 def _grid(lower: Array, upper: Array) -> tuple[Array, float]:
-    """Lower corner, exact in float32, and cell edge, a power of two, of a grid over a box."""
+    """Return lower corner, exact in float32, and cell edge, a power of 2, of a grid over a box."""
     nearest = lower.astype(np.float32)
     corner = np.where(nearest > lower, np.nextafter(nearest, np.float32(-np.inf)), nearest)
     extent = float((upper - corner).max())

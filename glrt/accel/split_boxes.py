@@ -1,4 +1,4 @@
-"""Boxes around pairs of triangles, those that are mostly empty cut before the tree is built.
+"""Boxes around pairs of triangles; mostly empty boxes are cut before the BVH is built.
 
 After "Early Split Clipping for Bounding Volume Hierarchies" (Ernst and Greiner 2007): a pair then
 lies in several leaves, which changes no hit.
@@ -10,10 +10,10 @@ import numpy as np
 
 from glrt.accel.binned_splits import Floats, Ints, surface
 
-PORTION = 1 << 16  # pairs that are looked at together, so that memory is bounded
-MOST_MORE = 0.2  # of the boxes
+PORTION = 1 << 16  # pairs that are processed together, so that memory is bounded
+MOST_MORE = 0.2  # boxes that may be added, as a share of the pairs
 _ROUNDS = 12
-_LEAST_WASTE = 8.0  # of a box that is cut, in surfaces of the median box
+_LEAST_WASTE = 8.0  # least waste of a box that is cut, in surfaces of the median box
 
 
 class Boxes(NamedTuple):
@@ -21,11 +21,11 @@ class Boxes(NamedTuple):
 
     lower: Floats  # (k, 3)
     upper: Floats
-    pair: Ints  # (k,): which pair each is of
+    pair: Ints  # (k,): the pair of each box
 
 
 def boxes_of(corners: Floats) -> Boxes:
-    """Boxes around pairs with the corners a b c d, (m, 4, 3): triangles a b c and a c d."""
+    """Return boxes around pairs with the corners a b c d, (m, 4, 3): triangles a b c and a c d."""
     portions = np.array_split(corners, -(-len(corners) // PORTION))
     flat = np.concatenate([_shadows(some) for some in portions])
     low, high = corners.min(axis=1), corners.max(axis=1)
@@ -48,13 +48,16 @@ def boxes_of(corners: Floats) -> Boxes:
 
 
 def _triangles(corners: Floats) -> Floats:
-    """(m, 2, 3, 3) of pairs."""
+    """Return the two triangles of each pair, (m, 2, 3, 3)."""
     both: Floats = corners[:, [[0, 1, 2], [0, 2, 3]]]
     return both
 
 
 def _shadows(corners: Floats) -> Floats:
-    """Half of the surface that a flat box would have: of the shadows of both triangles, (m,)."""
+    """Return the areas of both triangles projected along the axes, summed, (m,).
+
+    This is half the surface of a box without any waste.
+    """
     triangles = _triangles(corners)
     edges = triangles[:, :, 1:] - triangles[:, :, :1]
     flat: Floats = np.abs(np.cross(edges[:, :, 0], edges[:, :, 1])).sum(axis=(1, 2)) / 2
@@ -62,7 +65,7 @@ def _shadows(corners: Floats) -> Floats:
 
 
 def _cut(boxes: Boxes, pick: Ints, corners: Floats) -> tuple[Boxes, Ints]:
-    """The boxes, those of `pick` cut in the middle of their longest edge; which were cut."""
+    """Cut boxes of `pick` in the middle of their longest edge; return all, and which were cut."""
     low, high = boxes.lower[pick], boxes.upper[pick]
     axis, row = (high - low).argmax(axis=1), np.arange(len(pick))
     start, end = low[row, axis], high[row, axis]
@@ -83,9 +86,9 @@ def _cut(boxes: Boxes, pick: Ints, corners: Floats) -> tuple[Boxes, Ints]:
 
 
 def _clipped(triangles: Floats, axis: Ints, start: Floats, end: Floats) -> tuple[Floats, Floats]:
-    """Bounds of what of triangles, (m, 2, 3, 3), lies between two planes across an axis each.
+    """Return the bounds of triangles, (m, 2, 3, 3), clipped between two planes across an axis each.
 
-    Of nothing they are infinite, the wrong way round.
+    Where nothing is left, the low bound is inf and the high one -inf.
     """
     row = np.arange(len(triangles))
     low, high = np.full((len(triangles), 3), np.inf), np.full((len(triangles), 3), -np.inf)

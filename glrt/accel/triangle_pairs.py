@@ -1,4 +1,4 @@
-"""Triangles side by side, two in a leaf: a round of the loop then tests twice as many.
+"""Pairs of neighbouring triangles, two in a leaf: a round of the loop then tests twice as many.
 
 Each triangle is matched with the neighbour beyond its longest free edge, where both agree: pairs
 that share long edges have small boxes.
@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 from glrt.accel.binned_splits import Floats, Ints
 
 _Words = NDArray[np.int32]  # half the memory of Ints
-_ROUNDS = 12  # of matching, after which few triangles that could be matched are left
+_ROUNDS = 12  # rounds of matching; few triangles that could be matched are left then
 
 
 class Pairs(NamedTuple):
-    """Two triangles each, a b c and a c d; of a single one d is a, so the other is empty."""
+    """Pairs of triangles a b c and a c d; a single triangle has d = a, so the second is empty."""
 
     corner: Ints  # (m, 4): numbers of vertices
     triangle: Ints  # (m, 2): numbers of triangles; the second of a single one is the first again
@@ -25,16 +25,16 @@ class Pairs(NamedTuple):
 class _Shared(NamedTuple):
     """Edges that two triangles share."""
 
-    first: _Words  # (e,): the triangles
+    first: _Words  # (e,): numbers of both triangles
     second: _Words
-    start: _Words  # vertices, in the order of the first
+    start: _Words  # vertices of the edge, in the order of the first triangle
     end: _Words
-    apex: _Words  # the third vertex of the first
-    other: _Words  # and of the second
+    apex: _Words  # the third vertex of the first triangle
+    other: _Words  # the third vertex of the second
 
 
 def paired(vertices: Floats, faces: Ints) -> Pairs:
-    """Pairs of the triangles `faces`, (n, 3), numbers of `vertices`, (v, 3)."""
+    """Return pairs of the triangles `faces`, (n, 3), which are numbers of `vertices`, (v, 3)."""
     shared = _shared_edges(faces, len(vertices))
     by = _matched(shared, vertices, len(faces))
     corner = np.stack([shared.end[by], shared.apex[by], shared.start[by], shared.other[by]], axis=1)
@@ -64,7 +64,7 @@ def _shared_edges(faces: Ints, vertices: int) -> _Shared:
 
 
 def _matched(shared: _Shared, vertices: Floats, triangles: int) -> Ints:
-    """The edges across which triangles are matched."""
+    """Return the numbers of the edges across which triangles are matched."""
     length = np.linalg.norm(vertices[shared.start] - vertices[shared.end], axis=1)
     rank = np.empty(len(length), np.int32)  # no two alike, so that both can agree
     rank[np.argsort(length, kind="stable")] = np.arange(1, len(length) + 1, dtype=np.int32)

@@ -1,4 +1,4 @@
-"""A tree of 8 children a node, in slots of 64 bytes as the kernel reads them (struct Slot).
+"""A BVH with 8 children a node, in slots of 64 bytes as the kernel reads them (struct Slot).
 
 After "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs" (Ylitie, Karras,
 Laine 2017): the boxes of the children are bytes in cells of their parent's own size. Slot 0 is the
@@ -25,24 +25,24 @@ from glrt.accel.binned_splits import Bools, Floats, Ints, surface
 Words = NDArray[np.uint32]
 
 WIDTH = 8  # children of a node
-SLOT = 16  # words
+SLOT = 16  # words in a slot
 GRID_BITS = 24
 HALF_GRID = 2 ** (GRID_BITS - 1)
-MARGIN = 4  # cells of the grid that nothing reaches into, at its edges
-LINK_BITS = 28  # of slots and of numbers of shapes
+MARGIN = 4  # cells at the edges of the grid that stay empty
+LINK_BITS = 28  # bits for a slot or the number of a shape
 LEAF = 1 << 31
 PORTION = 1 << 14  # nodes that are written at once, so that memory is bounded
-_BIAS = 127  # of exponents of float32
+_BIAS = 127  # bias of float32 exponents
 
 
 class Grid(NamedTuple):
-    """Where a tree lies: coordinates on the grid are (position - center) / cell."""
+    """The grid in which a tree lies, with its middle and the edge of its cells."""
 
     center: Floats  # (3,), float64
     cell: float  # a power of two
 
     def cells(self, position: Floats) -> Floats:
-        """Coordinates from 0 to 2^24, (..., 3)."""
+        """Return coordinates on the grid, from 0 to 2^24, (..., 3)."""
         cells: Floats = (position - self.center) / self.cell + HALF_GRID
         return cells
 
@@ -55,9 +55,9 @@ class WideTree(NamedTuple):
 
 
 class Leaves(NamedTuple):
-    """Where the leaves of a binary tree lie in a wide one."""
+    """The slots of a binary tree's leaves in a wide tree."""
 
-    node: Ints  # (leaves,): of the binary tree
+    node: Ints  # (leaves,): nodes of the binary tree
     place: Ints  # (leaves,): their slots
 
 
@@ -70,7 +70,7 @@ class _Level(NamedTuple):
 
 
 def grid_of(lower: Floats, upper: Floats) -> Grid:
-    """The grid over the box with these corners, (3,) each."""
+    """Return the grid over the box with these corners, (3,) each."""
     extent = float((upper - lower).max())
     cells = 2 * (HALF_GRID - MARGIN)
     exponent = np.frexp(extent / cells)[1] if extent > 0 else -100
@@ -78,7 +78,7 @@ def grid_of(lower: Floats, upper: Floats) -> Grid:
 
 
 def collapse(tree: BinaryTree, grid: Grid, least: int = 0) -> tuple[WideTree, Leaves]:
-    """The wide tree of a binary one, of `least` slots or more, and where its leaves lie."""
+    """Return the wide tree of a binary one, of `least` slots or more, and where its leaves lie."""
     levels = _levels(tree)
     below, of_child = _sizes(levels)
     slots = np.zeros((max(1 + below, least), SLOT), np.uint32)
@@ -101,7 +101,7 @@ def collapse(tree: BinaryTree, grid: Grid, least: int = 0) -> tuple[WideTree, Le
 
 
 def _levels(tree: BinaryTree) -> list[_Level]:
-    """The wide nodes: of the children of a node, the largest is opened until there are WIDTH."""
+    """Return the wide nodes: the largest child of each is opened until there are WIDTH children."""
     area = surface((tree.upper - tree.lower).T)
     is_inner = tree.left >= 0
     levels, node = [], np.zeros(1, int)
@@ -123,7 +123,7 @@ def _levels(tree: BinaryTree) -> list[_Level]:
 
 
 def _sizes(levels: list[_Level]) -> tuple[int, list[Ints]]:
-    """How many slots lie below the root, and below each child of each level, (w, WIDTH)."""
+    """Return how many slots lie below the root, and below each child of each level, (w, WIDTH)."""
     sizes = np.zeros(0, int)
     of_child: list[Ints] = []
     for level in reversed(levels):
@@ -135,7 +135,7 @@ def _sizes(levels: list[_Level]) -> tuple[int, list[Ints]]:
 
 
 def _nodes(base: Ints, level: _Level, tree: BinaryTree, grid: Grid) -> Words:
-    """The slots of nodes, whose children begin at `base`."""
+    """Return the slots of nodes whose children begin at `base`."""
     corner = np.floor(grid.cells(tree.lower[level.node]))
     extent = grid.cells(tree.upper[level.node]) - corner
     exponent = np.ceil(np.log2(np.maximum(extent, 2.0**-100) / 255)).astype(int)

@@ -5,12 +5,12 @@ from collections.abc import Iterator, Sequence
 from glrt.core.text import counted, escaped
 from glrt.rendering.paths.values import Array, Contribution, Path, PathVertex, PixelPaths, Triple
 
-LISTED = 5  # samples that are told with their share
-TOTAL = 0.995  # of the light: a sample that brings as much brings all of it
+LISTED = 5  # samples that are listed with their share
+TOTAL = 0.995  # share of the light from which on a sample brings all of it
 
 
 def report(found: PixelPaths, source: str) -> str:
-    """All lines; `source` is what the scene is called."""
+    """The whole report; `source` is the name of the scene."""
     parts = _head(found, source), _ranking(found), _told(found.paths), _particles(found)
     return "\n".join(line for part in parts for line in part)
 
@@ -76,7 +76,7 @@ def _told(paths: Sequence[Path]) -> Iterator[str]:
 
 
 def vertex_rows(path: Path) -> list[tuple[str, ...]]:
-    """The cells of a table of the vertices of a path, headings first."""
+    """Cells of a table of the vertices of a path, headings first."""
     rows: list[tuple[str, ...]] = [
         ("", "event", "object", "material", "distance", "throughput", "density", "survives")
     ]
@@ -108,7 +108,7 @@ def _lights(path: Path) -> Iterator[str]:
 
 
 def light_rows(path: Path) -> list[tuple[str, ...]]:
-    """The cells of a table of the light that a path found, headings first."""
+    """Cells of a table of the light that a path found, headings first."""
     whole = sum(path.radiance)
     rows: list[tuple[str, ...]] = [
         ("at", "light", "found by", "radiance", "density", "other", "weight", "added", "share")
@@ -132,7 +132,7 @@ def light_rows(path: Path) -> list[tuple[str, ...]]:
 
 
 def explanation(path: Path) -> str:
-    """Why a sample is as bright as it is: the way of most of its light, and who else finds it."""
+    """Why a sample is as bright as it is: the path of most of its light, and what else finds it."""
     if not any(path.radiance):
         return ""
     light = max(path.contributions, key=lambda found: sum(found.added))
@@ -143,13 +143,13 @@ def explanation(path: Path) -> str:
 
 
 def _way_back(path: Path, light: Contribution) -> str:
-    """The names on the way of a particle from its lamp to the camera."""
+    """The names of the objects from a particle's lamp to the camera."""
     names = [escaped(vertex.name) for vertex in path.vertices[: light.vertex + 1]]
     return " - ".join([*names, "camera"])
 
 
 def _way(path: Path, light: Contribution) -> str:
-    """The names on the way from the camera to a light."""
+    """The names of the objects from the camera to a light."""
     names = [escaped(vertex.name) for vertex in path.vertices[: light.vertex + 1]]
     if light.strategy == "light sampling" or light.source != "object":
         names.append(_name(light))
@@ -180,7 +180,7 @@ def _finding(light: Contribution) -> str:
 
 
 def _table(rows: Sequence[tuple[str, ...]]) -> Iterator[str]:
-    """Columns two apart, without blanks at the ends of lines."""
+    """Lines of a table with columns two blanks apart, without blanks at their ends."""
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     for row in rows:
         cells = (f"{cell:<{width}}" for cell, width in zip(row, widths, strict=True))
@@ -188,10 +188,10 @@ def _table(rows: Sequence[tuple[str, ...]]) -> Iterator[str]:
 
 
 def triple(values: Triple | Array) -> str:
-    """Three numbers, four digits each."""
+    """Three numbers with four significant digits each."""
     return " ".join(f"{float(value):.4g}" for value in values)
 
 
 def percent(share: float) -> str:
-    """A share, three digits."""
+    """A share in percent, with three significant digits."""
     return f"{100 * share:.3g} %"

@@ -34,7 +34,7 @@ _STYLES = (  # colour, marker, dashes: one row for each curve of a chart
     ("#999933", "h", (0, (6, 1, 2, 1))),
 )
 IN_LEGEND, LINE = 5, 0.2  # lines that a chart of a sheet has room for; inches of one more
-MOST_CURVES = len(_STYLES)  # that a chart tells apart
+MOST_CURVES = len(_STYLES)  # curves that a chart can distinguish
 _HOLLOW = "hollow markers: 0"
 _LOOK: dict[Any, Any] = {
     "font.family": ["DejaVu Sans"],  # comes with matplotlib: identical charts everywhere

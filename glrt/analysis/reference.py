@@ -45,7 +45,7 @@ from glrt.settings import MAX_SAMPLES, Settings, settings_for
 
 Floats = NDArray[np.float64]
 
-SEEDS = (0x52454631, 0x52454632)  # of the two halves; unlikely to be chosen by users or tests
+SEEDS = (0x52454631, 0x52454632)  # seeds of the two halves; unlikely to be chosen by users or tests
 SAMPLER = "independent"  # the simplest one, as others are judged by it
 BOUNCES = 256  # practically unlimited: with an albedo of 0.95 they leave out 2e-6 of the light
 FIRST_LOOK = 64  # samples per pixel before the error is computed for the first time
@@ -68,7 +68,7 @@ class Reference:
 
     @cached_property
     def scale(self) -> Floats:
-        """What squared errors are divided by, (H, W, 3): radiance^2 + 0.01 mean(radiance)^2."""
+        """The divisor of squared errors, (H, W, 3): radiance^2 + 0.01 mean(radiance)^2."""
         scale: Floats = np.square(self.radiance) + DARK * self.radiance.mean() ** 2
         return scale
 

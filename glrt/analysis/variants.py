@@ -31,9 +31,9 @@ def variants_of(
 ) -> list[Variant]:
     """Return a variant for every method; with `leads`, also variants of the method LEAD.
 
-    Those have few or many bounces, no roulette, another sampler, particles, or a denoiser. Variants
-    that the same kernel renders, such as all methods in a scene without lamps, are merged into one,
-    "a = b = c".
+    Variants of LEAD have few or many bounces, no roulette, another sampler, particles, or a
+    denoiser. Variants that the same kernel renders, such as all methods in a scene without lamps,
+    are merged into one, "a = b = c".
     """
     facts = SceneFacts(scene)
     named = [_of_method(method, settings) for method in methods]
@@ -53,7 +53,7 @@ def variants_of(
 
 
 def _of_method(method: str, settings: Settings) -> tuple[str, dict[str, Any]]:
-    """A method as it is; one with probes by the sampler that it needs."""
+    """A method without changes; a method with probes gets the sampler that it needs."""
     if not TRAITS[method].has_probes or settings.block > 1:
         return method, {"method": method}
     return f"{method}, sobol", {"method": method, "sampler": "sobol"}

@@ -1,13 +1,13 @@
-"""The commands, a module each.
+"""The commands of glrt, one module each.
 
 Modules, each importing only what stands above it:
 
-- options: what command lines share
+- options: options that commands share
 - request: scene, settings and limits of a command line
 - autosave: files saved now and then
 - warnings: warnings about a finished picture
 - render_report: report of a finished render
-- caustics: whether a render has particles, where the command line leaves it open
+- caustics: choice of particles where the command line leaves it open
 - progress: the progress bar
 - render: `glrt render`
 - view: `glrt view`

@@ -14,7 +14,7 @@ from glrt.process.command import report
 from glrt.rendering.renderer import Renderer
 
 INTERVAL = 60.0  # seconds between two saves: what a power cut may cost
-SHARE = 0.05  # of the time, at most, that saving takes
+SHARE = 0.05  # largest share of the time that saving takes
 
 
 class Autosave:
@@ -25,10 +25,10 @@ class Autosave:
         self._outputs = outputs
         self._clock = clock
         self._due = clock() + INTERVAL
-        self.kept = 0  # samples of the picture as it was saved last
+        self.kept = 0  # samples of the picture that was saved last; 0: none
 
     def after(self, renderer: Renderer) -> None:
-        """Save if it is time. A failure is told, and the render goes on: room may come."""
+        """Save if due. A failure is reported and the render continues: space may become free."""
         start = self._clock()
         if start < self._due or renderer.samples <= self.kept:
             return
@@ -44,13 +44,13 @@ class Autosave:
         self._due = now + max(INTERVAL, (now - start) / SHARE)
 
     def keep(self, image: Image) -> None:
-        """Save for good. RenderError tells what could not be, and where the picture is then."""
+        """Save at the end. RenderError names a file that failed, and where the picture is."""
         if failures := self._save(image):
             raise RenderError(f"{failures[0]} {self._elsewhere(image)}".strip())
 
     @property
     def advice(self) -> str:
-        """How to go on from the last save when the driver fails; empty if there was none."""
+        """How to continue from the last save when the driver fails; empty if there was none."""
         if not self.kept:
             return ""
         state = next((name for name in self._outputs if _is_state(name)), None)
@@ -63,7 +63,7 @@ class Autosave:
         )
 
     def _save(self, image: Image) -> list[str]:
-        """What could not be written, and why."""
+        """Save all outputs; returns the messages of the failures."""
         failures = {}
         for output in self._outputs:
             try:
@@ -74,7 +74,7 @@ class Autosave:
         return list(failures.values())
 
     def _elsewhere(self, image: Image) -> str:
-        """Save in the folder for temporary files, unless an EXR file holds everything already."""
+        """Save to the temporary folder unless an .exr output was written; returns a message."""
         if self._is_safe:
             return "The .exr file is saved, and `glrt render` makes the others from it."
         place = Path(tempfile.gettempdir()) / f"glrt-{secrets.token_hex(4)}.exr"
@@ -86,5 +86,5 @@ class Autosave:
 
 
 def _is_state(name: str) -> bool:
-    """Whether a render can go on from such a file."""
+    """Whether a render can continue from a file of this name."""
     return name.lower().endswith(".exr")

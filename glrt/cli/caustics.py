@@ -1,4 +1,4 @@
-"""`--caustics auto`: ask a pilot whether particles from lamps are worth their work."""
+"""`--caustics auto`: measure in a short pilot whether particles from lamps pay off."""
 
 import argparse
 import sys
@@ -14,14 +14,14 @@ from glrt.rendering.pipelines import resolve
 if TYPE_CHECKING:
     from glrt.analysis.method_choice.caustics import Finding
 
-SHORT = 30.0  # seconds of `--time` of which a pilot would take too large a share
-MANY = 100  # times as efficient: more is not told
+SHORT = 30.0  # seconds: of a shorter `--time`, a pilot would take too large a share
+MANY = 100  # times as efficient: the message reports no larger gain
 
 
 def with_caustics(arguments: argparse.Namespace, wanted: Order) -> Order:
-    """The order, with particles where a pilot finds that they are worth their work.
+    """Return the order, with particles if a pilot finds that they pay off.
 
-    Pictures keep what they were rendered with. What was found is told on stderr.
+    Rendering a picture again keeps its own choice. The finding is reported on stderr.
     """
     if not _is_open(arguments, wanted):
         return wanted
@@ -38,7 +38,7 @@ def with_caustics(arguments: argparse.Namespace, wanted: Order) -> Order:
 
 
 def _is_open(arguments: argparse.Namespace, wanted: Order) -> bool:
-    """Whether the command line leaves it to the program, for a new render of some length."""
+    """Whether the command line leaves the choice open, and the render is new and not short."""
     is_asked = getattr(arguments, "caustics", AUTO) == AUTO and not is_automatic(arguments)
     is_new = wanted.begun is None and recipe_of(arguments.scene) is None
     is_short = arguments.time is not None and arguments.time < SHORT
@@ -48,7 +48,7 @@ def _is_open(arguments: argparse.Namespace, wanted: Order) -> bool:
 def _finding(
     arguments: argparse.Namespace, wanted: Order, given: dict[str, Any]
 ) -> "Finding | None":
-    """What a pilot finds; None where there is none."""
+    """Run a pilot and return its finding; None if particles cannot be traced, or cannot help."""
     from glrt.analysis.method_choice.caustics import may_gain, particles_worth
 
     scene, settings = wanted.scene, wanted.settings
@@ -64,7 +64,7 @@ def _finding(
 
 
 def told(found: "Finding") -> str:
-    """What a pilot chose, and why, in a sentence."""
+    """Return a sentence on what a pilot chose, and why."""
     from glrt.analysis.method_choice.caustics import CHOICES
 
     times = f"about {found.gain:.2g} times" if found.gain < MANY else f"over {MANY} times"

@@ -1,7 +1,7 @@
-"""`glrt chart`: measure, chart and summarise what each method reaches in which time.
+"""`glrt chart`: measure, chart and summarise the error of each method over its time.
 
-Rounds are kept in DIR/NAME.rounds.json as they are made: the same command continues from there
-after an interruption, and one with more rounds adds to them.
+Rounds are saved in DIR/NAME.rounds.json as they are made. The same command continues from there
+after an interruption; with more rounds, it adds to them.
 """
 
 import argparse
@@ -46,7 +46,7 @@ EPILOG = (
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of the command."""
+    """Add the arguments of the command to its parser."""
     parser.add_argument("scenes", metavar="SCENE", nargs="+", help=SCENE)
     parser.add_argument("-o", dest="output", metavar="DIR", required=True, help="output folder")
     for name, default, kind, text in (
@@ -94,7 +94,7 @@ _LIMITS = {"height": (8, 4096), "rounds": (2, 1000), "seconds": (0.1, 1e6)}
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """A chart of each scene and a page of all of them in a folder; returns the exit code."""
+    """Write a chart of each scene and one page for all of them; return the exit code."""
     check_matplotlib()
     plan, ways, kept = _plan(arguments), _ways(arguments), _hysteresis(arguments)
     if (curves := len(ways) + len(kept) + bool(kept)) > MOST_CURVES:
@@ -127,7 +127,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _stopping(tell: Tell, interruption: Interruption) -> Tell:
-    """Between two runs, an interruption ends the work."""
+    """Wrap the progress function so that it raises KeyboardInterrupt after an interruption."""
 
     def report_or_stop(text: str, share: float) -> None:
         if interruption.signal is not None:
@@ -176,7 +176,7 @@ def _temporal(
 
 
 def _ways(arguments: argparse.Namespace) -> tuple[Way, ...]:
-    """Modes in their order; wrls by each predictor, ataa by each number of samples."""
+    """Return the modes to chart in order: wrls for each predictor, ataa for each sample number."""
     predictors = _chosen("--predictor", arguments.predictor, get_args(Predictor))
     traced = _chosen("--traced", arguments.traced, tuple(map(str, CHOICES)))
     modes = _chosen("--temporal", arguments.temporal, get_args(Mode))
@@ -185,7 +185,7 @@ def _ways(arguments: argparse.Namespace) -> tuple[Way, ...]:
 
 
 def _hysteresis(arguments: argparse.Namespace) -> tuple[float, ...]:
-    """Of live probes to chart; none unless that is wanted."""
+    """Return the values of --hysteresis, from 0 to below 1; empty if it is not given."""
     if arguments.hysteresis is None:
         return ()
     if arguments.temporal is None:
@@ -228,7 +228,7 @@ def _scenes(sources: Sequence[str], rules: FileRules) -> dict[str, Scene]:
 
 @contextmanager
 def _progress(quiet: bool) -> Iterator[Tell]:
-    """A bar on stderr with a forecast, on a terminal; else nothing."""
+    """Yield a function that shows a bar with a forecast on stderr; without terminal, nothing."""
     if quiet or not sys.stderr.isatty():
         yield lambda _text, _share: None
         return

@@ -1,7 +1,7 @@
 """The commands of `glrt` by name; each is a module of this package.
 
 Such a module has DESCRIPTION and EPILOG for its help, `add_arguments(parser)` and
-`run(arguments) -> exit code`. Only the one that is called is imported.
+`run(arguments) -> exit code`. Only the called command is imported.
 """
 
 import argparse
@@ -12,7 +12,7 @@ from typing import Any
 from glrt.cli.options import Parser
 from glrt.core.version import VERSION
 
-COMMANDS = {  # name, and what `glrt --help` says of it
+COMMANDS = {  # name, and its summary in `glrt --help`
     "render": "render a scene to a file",
     "view": "show a scene in a window",
     "merge": "put the parts of a render together",
@@ -28,11 +28,11 @@ COMMANDS = {  # name, and what `glrt --help` says of it
 }
 
 
-_MODULES = {"import": "importing"}  # where a command is no name in Python
+_MODULES = {"import": "importing"}  # for commands that are keywords of Python
 
 
 def make_parser(called: str) -> Parser:
-    """The parser of all commands, with the arguments of the one that is called."""
+    """Return the parser of all commands; only the `called` one has its arguments."""
     parser = Parser(prog="glrt", description="A path tracer in OpenGL compute shaders.")
     parser.add_argument("--version", action="version", version=f"glrt {VERSION}")
     commands = parser.add_subparsers(
@@ -48,19 +48,19 @@ def make_parser(called: str) -> Parser:
 
 
 def load(words: list[str] | None = None) -> None:
-    """Import the module of the command that is called, if there is one by that name."""
+    """Import the module of the called command, if such a command exists."""
     if (called := _called(sys.argv[1:] if words is None else words)) in COMMANDS:
         _module(called)
 
 
 def parse(words: list[str] | None = None) -> argparse.Namespace:
-    """A command line, by default that of the process; SystemExit after --help and --version."""
+    """Parse `words`, by default the command line; SystemExit after --help and --version."""
     words = sys.argv[1:] if words is None else words
     return make_parser(_called(words)).parse(words)
 
 
 def run(words: list[str] | None = None) -> int:
-    """Run a command; returns its exit code."""
+    """Run the command in `words`, by default the command line; return its exit code."""
     try:
         arguments = parse(words)
     except SystemExit:  # after --help and --version
@@ -69,7 +69,7 @@ def run(words: list[str] | None = None) -> int:
 
 
 def _called(words: list[str]) -> str:
-    """The first word that is no option."""
+    """Return the first word that is not an option, or ""; options begin with a dash."""
     return next((word for word in words if not word.startswith("-")), "")
 
 

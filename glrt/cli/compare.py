@@ -26,7 +26,7 @@ EPILOG = (
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of the command."""
+    """Add the arguments of the command to its parser."""
     for name in ("image", "reference"):
         parser.add_argument(name, metavar=name.upper(), help="an .exr or .npy file")
     for name in ("samples", "reference-samples"):
@@ -59,12 +59,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 DIFFERENT = 1
-GROUP_SAMPLES = 64  # of the light of a group alone: its noise hardly matters
+GROUP_SAMPLES = 64  # of a render with one light group: its noise hardly matters
 GROUP_SETTINGS = {"width", "height", "bounces", "method", "crop", "sampler", "roulette", "seed"}
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """The exit code: 1 for pictures that differ, and with --strict for undecided ones."""
+    """Print the verdict; return 1 if the pictures differ, with --strict also if undecided."""
     image = read(arguments.image, arguments.samples, "--samples")
     reference = read(arguments.reference, arguments.reference_samples, "--reference-samples")
     if arguments.picture:
@@ -81,7 +81,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def read(path: str, samples: int | None, option: str) -> Image:
-    """An EXR or NPY file with its number of samples; UsageError if that is in neither place."""
+    """Read an EXR or NPY file; UsageError if it and `samples` give no number, or two numbers."""
     image = _read_npy(path) if path.lower().endswith(".npy") else Image.load(path)
     if image.samples and samples not in (None, image.samples):
         raise UsageError(f"{path} has {image.samples} samples a pixel already: leave out {option}.")
@@ -93,7 +93,7 @@ def read(path: str, samples: int | None, option: str) -> Image:
 
 
 def light_groups(image: Image, path: str) -> dict[str, Image]:
-    """For each light group of the picture's scene, what it lights alone; UsageError if unknown."""
+    """Render each light group of the picture's scene alone; UsageError if it has no recipe."""
     if image.recipe is None:
         raise UsageError(f"{path}: --groups needs the recipe of a picture that glrt rendered.")
     from glrt.api import render
@@ -110,7 +110,7 @@ def light_groups(image: Image, path: str) -> dict[str, Image]:
 
 
 def figures(comparison: Comparison) -> dict[str, Any]:
-    """For scripts: plain values, null for what is infinite or unknown."""
+    """Return the figures of a comparison as plain values, None for infinite or unknown ones."""
     c = comparison
     rows = zip(CHANNELS, c.means, c.differences, strict=True)
     channels = {

@@ -1,4 +1,4 @@
-"""`glrt doctor`: which OpenGL routes work here."""
+"""`glrt doctor`: test which OpenGL routes work here."""
 
 import argparse
 
@@ -10,12 +10,12 @@ EPILOG = ""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of the command."""
+    """Add the arguments of the command to its parser."""
     parser.add_argument("--json", action="store_true", help="print findings as one line of JSON")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """`glrt doctor`: exit code 3 when no route works."""
+    """Print the report of all routes; return exit code 3 if none works."""
     from glrt.doctor.report import report
 
     text, works = report(arguments.json)

@@ -1,4 +1,4 @@
-"""`glrt import`: write the scene of a model."""
+"""`glrt import`: write a model as a scene file."""
 
 import argparse
 import sys
@@ -21,7 +21,7 @@ EPILOG = (
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of the command."""
+    """Add the arguments of the command to its parser."""
     parser.add_argument("model", metavar="MODEL", help="a model")
     parser.add_argument(
         "-o", dest="scene", required=True, metavar="FILE.toml", help="the scene file to write"
@@ -34,7 +34,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """0; what is no model is a UsageError."""
+    """Write the scene file and return 0; UsageError if the file is not a model."""
     if not is_model(Path(arguments.model)):
         raise UsageError(
             f"{arguments.model} is no model: its name must end in .glb, .gltf, .obj, .ply or .stl."

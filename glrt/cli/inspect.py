@@ -1,4 +1,4 @@
-"""`glrt inspect`: show what a scene needs."""
+"""`glrt inspect`: show what a scene holds and what its kernel contains."""
 
 import argparse
 
@@ -24,7 +24,7 @@ EPILOG = ""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of the command."""
+    """Add the arguments of the command to its parser."""
     parser.add_argument("scene", metavar="SCENE", help=SCENE)
     add_settings(parser)
     parser.add_argument(
@@ -45,7 +45,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """What the kernel contains and leaves out, its text, or what suffices for an error."""
+    """Print the features or the text of the kernel, and what reaches an error; return 0."""
     if arguments.pipeline != "auto" and not arguments.kernel:
         raise UsageError("--pipeline chooses the kernel that --kernel prints: give both.")
     scene, settings = scene_and_settings(arguments)
@@ -88,7 +88,7 @@ def _explain(name: str, scene: Scene, settings: Settings) -> None:
 
 
 def _kernel(arguments: argparse.Namespace, scene: Scene, settings: Settings) -> str:
-    """The shader that traces paths, as `glrt render` gives it to the driver."""
+    """Return the shader that traces paths, as `glrt render` gives it to the driver."""
     from glrt.gpu.context import open_context
 
     context = open_context(arguments.context, arguments.pipeline)

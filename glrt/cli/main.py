@@ -1,6 +1,6 @@
 """The command `glrt`: how it starts, and how it ends.
 
-Nothing that takes time is imported before `main` has seen to Ctrl-C.
+Nothing slow is imported before `main` has installed a handler for Ctrl-C.
 """
 
 import sys
@@ -13,8 +13,9 @@ SMALLER = "Render a smaller picture or a --crop."
 def main(arguments: list[str] | None = None) -> int:
     """Run a command; returns its exit code.
 
-    Without `arguments` this is the process of the command `glrt`, whose command line it runs. With
-    them it is a program's: signals and the garbage collector are left as they are.
+    Without `arguments`, run the command line of this process, which is the command `glrt`. With
+    `arguments`, run in the process of another program, whose signal handlers and garbage collector
+    are unchanged afterwards.
     """
     if arguments is None:
         leave_early()
@@ -42,7 +43,7 @@ def _run(arguments: list[str] | None) -> int:
     try:
         with signals.handled(signals.interrupt):
             code = commands.run(arguments)
-            sys.stdout.flush()  # a reader that has gone is found out here, not at exit
+            sys.stdout.flush()  # a closed reader is noticed here, not at exit
             return code
     except GlrtError as error:
         return fail(str(error), error.exit_code)

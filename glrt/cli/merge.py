@@ -22,7 +22,7 @@ EPILOG = (
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of the command."""
+    """Add the arguments of the command to its parser."""
     parser.add_argument(
         "parts", metavar="PART.exr", nargs="+", help="the parts of one render, in any order"
     )
@@ -36,7 +36,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """0; what cannot be merged is a UsageError."""
+    """Write the merged picture and return 0; UsageError if the parts cannot be merged."""
     for output in arguments.outputs:
         check_writable(output)
     recipes = _recipes(arguments.parts)
@@ -48,7 +48,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _recipes(names: list[str]) -> dict[str, Recipe | None]:
-    """The recipes of files, by name; UsageError for what is no part, and for a name given twice."""
+    """Return the recipes of files by name; UsageError for a file not .exr, or given twice."""
     for name in names:
         if Path(name).suffix.lower() != ".exr":
             raise UsageError(f"{name} is not an .exr file: parts are, for they keep their film.")

@@ -14,13 +14,13 @@ from glrt.settings import RenderSettings, Settings, editable_of
 if TYPE_CHECKING:
     from _typeshed import SupportsWrite
 
-AUTO = "auto"  # as --method or --caustics: chosen by a measurement
-_AUTO = {  # what it chooses
+AUTO = "auto"  # value of --method or --caustics: a measurement chooses
+_AUTO = {  # what a measurement chooses, by option
     "method": "the cheapest that reaches --error, measured first for some seconds, or for half of "
     "--time",
     "caustics": "as a short pilot finds it cheaper, for long renders of scenes with glass or metal",
 }
-_LEFT_OPEN = ("caustics",)  # those that are AUTO unless they are given
+_LEFT_OPEN = ("caustics",)  # options whose default is AUTO
 SCENE = (
     "a scene file, the name of a scene that comes with glrt, a picture rendered by glrt, or - for "
     "a scene file on standard input"
@@ -28,23 +28,23 @@ SCENE = (
 
 
 class Parser(argparse.ArgumentParser):
-    """argparse, but an error is a UsageError with a did-you-mean."""
+    """Parser that raises UsageError with a suggestion where argparse would exit."""
 
     def __init__(self, **options: Any) -> None:
-        """Abbreviations are off: a script must not change its meaning when options are added."""
+        """Forbid abbreviations: a script must not change its meaning when options are added."""
         super().__init__(allow_abbrev=False, **options)
         self.commands: dict[str, Parser] = {}
 
     def error(self, message: str) -> NoReturn:
-        """Raise what argparse would print."""
+        """Raise UsageError with the message that argparse would print."""
         raise UsageError(f"{message}. See `{self.prog} --help`.")
 
     def print_help(self, file: "SupportsWrite[str] | None" = None) -> None:
-        """Print the help; OSError, which argparse would ignore, if that fails."""
+        """Print the help; raises OSError if that fails, which argparse would ignore."""
         print(self.format_help(), end="", file=file)
 
     def parse(self, arguments: list[str] | None) -> argparse.Namespace:
-        """Parse everything; an unknown option gets the nearest known one as advice."""
+        """Parse a command line; UsageError for an unknown option suggests the nearest known one."""
         result, unknown = self.parse_known_args(arguments)
         if unknown:
             raise UsageError(self._advice(unknown[0], str(result.command)))
@@ -59,7 +59,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def add_outputs(parser: argparse.ArgumentParser) -> None:
-    """`-o`, of a command that writes pictures."""
+    """Add `-o`, for a command that writes pictures."""
     parser.add_argument(
         "-o",
         dest="outputs",
@@ -71,13 +71,13 @@ def add_outputs(parser: argparse.ArgumentParser) -> None:
 
 
 def add_summary(parser: argparse.ArgumentParser, unsaid: str) -> None:
-    """`--json` and `--quiet`, which leaves `unsaid` out."""
+    """Add `--json` and `--quiet`; `unsaid`: what --quiet prints, such as "no summary"."""
     parser.add_argument("--json", action="store_true", help="print figures as one line of JSON")
     parser.add_argument("--quiet", action="store_true", help=f"print {unsaid}")
 
 
 def add_pipeline(parser: argparse.ArgumentParser) -> None:
-    """`--pipeline`."""
+    """Add `--pipeline`."""
     parser.add_argument(
         "--pipeline",
         choices=get_args(Pipeline),
@@ -87,7 +87,7 @@ def add_pipeline(parser: argparse.ArgumentParser) -> None:
 
 
 def add_context(parser: argparse.ArgumentParser) -> None:
-    """`--context`."""
+    """Add `--context`."""
     parser.add_argument(
         "--context",
         choices=["auto", *sorted(ROUTES)],
@@ -97,7 +97,7 @@ def add_context(parser: argparse.ArgumentParser) -> None:
 
 
 def add_files(parser: argparse.ArgumentParser) -> None:
-    """`--allow-outside`, `--assets-from` and `--assets`: which files a scene may name."""
+    """Add `--allow-outside`, `--assets-from` and `--assets`: which files a scene may name."""
     group = parser.add_argument_group("files that the scene names")
     group.add_argument(
         "--allow-outside",
@@ -120,15 +120,15 @@ def add_files(parser: argparse.ArgumentParser) -> None:
 
 
 def file_rules(arguments: argparse.Namespace) -> FileRules:
-    """What `add_files` has read."""
+    """Return the rules that the options of `add_files` set."""
     is_changed = arguments.assets == "changed"
     return FileRules(arguments.allow_outside, arguments.assets_from, is_changed)
 
 
 def add_settings(parser: argparse.ArgumentParser, has_auto: bool = False) -> None:
-    """An option for each field of Settings; absent ones leave no trace in the result.
+    """Add `--light` and an option for each field of Settings; an option not given sets nothing.
 
-    `has_auto`: some of them take `auto` too, which is measured.
+    `has_auto`: `--method` and `--caustics` also accept `auto`, which chooses by a measurement.
     """
     group = parser.add_argument_group("settings")
     for name, field in Settings.model_fields.items():
@@ -154,7 +154,7 @@ def add_settings(parser: argparse.ArgumentParser, has_auto: bool = False) -> Non
 
 
 def _shown(default: Any) -> str:
-    """A default value in the words of a help text."""
+    """Return a default value in the words of a help text."""
     if default is None:
         return "the whole picture"
     if default == ():
@@ -191,7 +191,7 @@ def _refuse_light(text: str) -> NoReturn:
 
 
 def error_limit(text: str) -> float:
-    """The value of `--error`: a fraction, or a percentage with its sign; 1 at most without it."""
+    """Parse `--error`: a fraction of at most 1, or a percentage with its sign."""
     word = text.strip()
     try:
         share = float(word.removesuffix("%")) / (100 if word.endswith("%") else 1)
@@ -205,11 +205,11 @@ def error_limit(text: str) -> float:
 
 
 def settings_given(arguments: argparse.Namespace) -> dict[str, Any]:
-    """The settings that stand on the command line."""
+    """Return the settings given on the command line; a value `auto` is left out."""
     given = {name: v for name, v in vars(arguments).items() if name in Settings.model_fields}
     return {n: value for n, value in given.items() if value != AUTO or n not in _AUTO}
 
 
 def is_automatic(arguments: argparse.Namespace) -> bool:
-    """Whether the method is to be chosen by what the error asks for."""
+    """Whether a measurement is to choose the method: `--method auto`."""
     return getattr(arguments, "method", None) == AUTO

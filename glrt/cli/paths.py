@@ -40,7 +40,7 @@ DIFFERENT = 1
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of the command."""
+    """Add the arguments of the command to its parser."""
     parser.add_argument("scene", metavar="SCENE", nargs="?", help=SCENE)
     parser.add_argument(
         "--pixel", type=int, nargs=2, metavar=("X", "Y"), help="column and row of the pixel"
@@ -75,7 +75,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Tell or store the paths of a pixel, or trace stored ones again."""
+    """Print or store the paths of a pixel, or trace stored ones again; return the exit code."""
     if arguments.pipeline == "fragment":
         raise UsageError(
             "The fragment pipeline cannot record paths: it has no storage buffers, for which "
@@ -114,7 +114,7 @@ def _show(arguments: argparse.Namespace) -> int:
 
 
 def _asked(arguments: argparse.Namespace) -> tuple[Scene, Settings, tuple[int, int]]:
-    """Scene, settings and pixel; UsageError for a command line that lacks or confuses some."""
+    """Return scene, settings and pixel; UsageError for missing or conflicting options."""
     if arguments.scene is None:
         raise UsageError("SCENE is missing. See `glrt paths --help`.")
     if arguments.pixel is None:
@@ -133,7 +133,7 @@ def _asked(arguments: argparse.Namespace) -> tuple[Scene, Settings, tuple[int, i
 
 
 def _replay(arguments: argparse.Namespace) -> int:
-    """0 where all stored paths come out again, else 1."""
+    """Trace stored paths again; return 0 if all come out the same, else 1."""
     asked = ("scene", "pixel", "numbers", "brightest", "json", "output", "lights")
     if settings_given(arguments) or any(getattr(arguments, name) for name in asked):
         raise UsageError(
@@ -159,7 +159,7 @@ def _replay(arguments: argparse.Namespace) -> int:
 def _traced_again(
     arguments: argparse.Namespace,
 ) -> "tuple[StoredPaths, str, list[tuple[PixelPath, PixelPath | None]]]":
-    """What a file holds, the driver here, and each stored path with what it is now, if it is."""
+    """Return the stored file, the driver here, and pairs of stored and new path (or None)."""
     from glrt.rendering.paths.file import LARGEST, paths_from_json
     from glrt.rendering.paths.replay import check_pixel, check_samples, path_replay
 

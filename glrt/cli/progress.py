@@ -10,19 +10,19 @@ from glrt.rendering.renderer import Renderer
 from glrt.rendering.stopping import Limits
 from glrt.settings import MAX_SAMPLES
 
-LOOK = 2.0  # seconds before an estimate of the error, which reads the film back
-SHARE = 0.05  # of the time, at most, that estimates take
+LOOK = 2.0  # seconds between estimates of the error, which read the film back
+SHARE = 0.05  # largest share of the time that estimates take
 
 
 class Watch(Protocol):
-    """What is called after each dispatch."""
+    """Function that is called after each dispatch."""
 
     def __call__(self, renderer: Renderer) -> None: ...
 
 
 @contextmanager
 def progress_bar(limits: Limits, begun: int = 0) -> Iterator[Watch]:
-    """A bar on stderr, for a render that has so many samples; it vanishes when the render ends."""
+    """Yield the updater of a temporary bar on stderr; `begun`: samples at the start."""
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn
 
@@ -39,10 +39,10 @@ def progress_bar(limits: Limits, begun: int = 0) -> Iterator[Watch]:
 
 
 class Forecast:
-    """How far a render is, and how long it will take, by samples, time and error."""
+    """Progress and remaining time of a render, by its limits of samples, time and error."""
 
     def __init__(self, limits: Limits, begun: int = 0) -> None:
-        """Start the clock."""
+        """Start the clock; `begun`: samples that the render starts with."""
         self._limits = limits
         self._begun = begun
         self._start = time.perf_counter()
@@ -50,7 +50,7 @@ class Forecast:
         self._error: float | None = None
 
     def after(self, renderer: Renderer) -> dict[str, Any]:
-        """The fields of the bar after a dispatch."""
+        """Return the fields of the bar after a dispatch."""
         start = time.perf_counter()
         is_first = self._error is None and renderer.samples >= 2 * renderer.settings.block
         if is_first or (renderer.samples and start >= self._due):
@@ -60,7 +60,7 @@ class Forecast:
         seconds = start - self._start
         total = self._total_seconds(renderer.work, seconds)
         error = f"error {100 * self._error:.2g} %  " if self._error else ""
-        most = self._limits.samples  # of which nobody speaks where time or error ends the render
+        most = self._limits.samples  # not shown where time or error ends the render
         of_all = f" of {most}" if most < MAX_SAMPLES else ""
         done = f"{renderer.samples}{of_all} samples"
         if total is None:
@@ -71,7 +71,7 @@ class Forecast:
         return {"completed": share, "done": done, "rest": rest}
 
     def _total_seconds(self, samples: float, seconds: float) -> float | None:
-        """Seconds to the first limit; None where only an error ends it, which is not known yet."""
+        """Return the seconds to the first limit; None if it is an error that is not known yet."""
         rate = max(samples - self._begun, 1e-9) / seconds
         candidates = []
         if self._limits.samples < MAX_SAMPLES or not self._limits.is_open:
@@ -83,7 +83,7 @@ class Forecast:
         return min(candidates, default=None)
 
     def _samples_to_error(self, samples: float) -> float:
-        """The look at which the error is reached: it falls with the square root of the samples."""
+        """Return the samples at the look that reaches the error; it falls as 1 / sqrt(samples)."""
         assert self._limits.error
         assert self._error
         needed = samples * math.pow(self._error / self._limits.error, 2)

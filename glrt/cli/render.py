@@ -47,7 +47,7 @@ EPILOG = (
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of the command."""
+    """Add the arguments of the command to its parser."""
     parser.add_argument(
         "scene", metavar="SCENE", nargs="?", help=f"{SCENE}; optional with --resume"
     )
@@ -93,7 +93,7 @@ Watch = Callable[[Renderer], None]
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """The exit code says whether the picture meets what was asked for."""
+    """Render to files; the exit code is 1 if the picture does not reach `--error`."""
     try:
         return _run(arguments)
     except KeyboardInterrupt as error:
@@ -166,7 +166,7 @@ def _render(
 def _picture(
     renderer: Renderer, wanted: Order, interruption: Interruption, watch: Watch
 ) -> Image | None:
-    """Of one render, or merged from its parts."""
+    """Render in one piece, or in parts that are merged; None if interrupted before a picture."""
     if wanted.merged:
         return render_parts(renderer, wanted.merged, interruption, watch)
     return render_to_limit(renderer, wanted.limits, interruption, watch)
@@ -175,9 +175,9 @@ def _picture(
 def unreached(
     wanted: float, noise: float, estimate: float | None, samples: int, block: int = 1
 ) -> str:
-    """What to say of an `--error`; of one for which `noise` is what a method's bias leaves room.
+    """Return the message about an `--error` of `wanted` that was not reached.
 
-    `block`: samples of an observation.
+    `noise`: error that the method's bias leaves to noise; `block`: samples of an observation.
     """
     found = "unknown" if estimate is None else f"{estimate:.3g}"
     if samples < 2 * block:
@@ -201,7 +201,7 @@ def _signal_code(interruption: Interruption) -> int:
 def _watch(
     arguments: argparse.Namespace, limits: Limits, autosave: Autosave, begun: int
 ) -> Iterator[Watch]:
-    """What is called after each dispatch: saves now and then, and shows progress on a terminal."""
+    """Yield a function to call after each dispatch: it saves, and shows progress on a terminal."""
     if arguments.quiet or not sys.stderr.isatty():
         yield autosave.after
         return

@@ -1,4 +1,4 @@
-"""What `glrt render` tells of a render that has ended: a line of JSON, or of prose."""
+"""Report of `glrt render` on a finished render: a line of JSON, or prose."""
 
 import argparse
 import sys
@@ -15,7 +15,7 @@ from glrt.scene.loading.scene_files import sources_of
 
 
 class Done(NamedTuple):
-    """A render that has ended."""
+    """A finished render."""
 
     renderer: Renderer
     image: Image
@@ -24,18 +24,18 @@ class Done(NamedTuple):
 
     @property
     def new(self) -> int:
-        """Samples of each pixel that were rendered."""
+        """Samples of each pixel that this run rendered."""
         return self.image.samples - self.begun
 
     @property
     def rate(self) -> float:
-        """Samples of pixels a second."""
+        """Samples a second, over all pixels."""
         width, height = self.renderer.size
         return self.new * width * height / max(self.seconds["render"], 1e-9)
 
     @property
     def dropped(self) -> int:
-        """Samples that were not finite."""
+        """Samples and particles that were dropped because they were not finite."""
         state = self.image.film_state
         if state is None:
             return self.renderer.nonfinite()
@@ -43,7 +43,7 @@ class Done(NamedTuple):
 
 
 def report(arguments: argparse.Namespace, done: Done) -> None:
-    """The figures of a render: a line of JSON on stdout, or of prose on stderr."""
+    """Print the figures of a render: a line of JSON on stdout, or prose on stderr."""
     renderer, begun, new = done.renderer, done.begun, done.new
     width, height = renderer.size
     if arguments.json:
@@ -75,14 +75,14 @@ def report(arguments: argparse.Namespace, done: Done) -> None:
 
 
 def _errors(image: Image) -> str:
-    """What is known of the error, as the end of a sentence."""
+    """Return the known errors as the end of a sentence."""
     plain = "" if image.error is None else f", estimated error {100 * image.error:.2g} %"
     denoised = image.denoising
     return plain if denoised is None else f"{plain}, denoised {100 * denoised.error:.2g} %"
 
 
 def _noisy(image: Image) -> str | None:
-    """What to say of a picture that ended before it could be denoised."""
+    """Return a caution if the picture has too few samples to be denoised; else None."""
     settings = image.recipe.settings if image.recipe else None
     if settings is None or settings.denoise == "none" or image.denoising:
         return None

@@ -32,19 +32,19 @@ TIERS: tuple[Tier, ...] = get_args(Tier)
 
 @dataclass(frozen=True)
 class Order:
-    """A render, as it is wanted."""
+    """A requested render."""
 
     scene: Scene
     settings: Settings
     limits: Limits
-    begun: Image | None = None  # the picture to go on from
-    part: tuple[int, int] | None = None  # number and count of the part that is wanted
+    begun: Image | None = None  # the picture to continue from
+    part: tuple[int, int] | None = None  # number and count of the requested part
     merged: Partition | None = None  # the parts that the picture was merged from
     decisions: Mapping[str, str] = field(default_factory=dict)  # as in recipes
 
 
 def order(arguments: argparse.Namespace) -> Order:
-    """What `glrt render` is to do; UsageError and SceneError as ever."""
+    """Return the render that the command line requests; raises UsageError and SceneError."""
     for name in ("time", "error"):
         check_limit(name, getattr(arguments, name))
     if arguments.resume is not None:
@@ -60,20 +60,20 @@ def order(arguments: argparse.Namespace) -> Order:
 
 
 def _decisions_kept(arguments: argparse.Namespace, recipe: Recipe | None) -> dict[str, str]:
-    """The decisions that a picture tells of, but for settings that are given anew."""
+    """Return the decisions in a picture's recipe, except for settings on the command line."""
     told, given = recipe.decisions if recipe else {}, settings_given(arguments)
     return {name: by for name, by in told.items() if name not in given}
 
 
 def scene_and_settings(arguments: argparse.Namespace) -> tuple[Scene, Settings]:
-    """The scene with its lights, and the settings: those given, the rest by file or recipe."""
+    """Return the scene with its lights, and the settings: as given, else of the file or recipe."""
     scene, recipe = load_recipe(arguments.scene, file_rules(arguments))
     settings = settings_for(recipe or scene.render, **settings_given(arguments))
     return with_lights(scene, dict(arguments.lights)), settings
 
 
 def _in_parts(arguments: argparse.Namespace, order: Order) -> Order:
-    """The order with the part that is wanted, or the parts of the picture that SCENE is."""
+    """Return the order with the part of `--part`, or with the parts of a picture as SCENE."""
     recipe, settings = recipe_of(arguments.scene), order.settings
     if arguments.part:
         number, count = arguments.part
@@ -93,7 +93,7 @@ def _in_parts(arguments: argparse.Namespace, order: Order) -> Order:
 def ways_wanted(
     arguments: argparse.Namespace, settings: Settings, recipe: Recipe | None
 ) -> set[Way]:
-    """The ways to render that a command line asks for; the recipe is of the picture it names."""
+    """Return the ways to render that a command line requests; `recipe`: of the picture it names."""
     partition = recipe.partition if recipe and not arguments.part else None
     found = {
         Way.RESUME: arguments.resume is not None,
@@ -109,13 +109,13 @@ def ways_wanted(
 
 
 def check_limit(name: str, value: float | None) -> None:
-    """UsageError for a limit that is no number above 0."""
+    """Raise UsageError for a limit that is not a finite number above 0."""
     if value is not None and not 0 < value < float("inf"):
         raise UsageError(f"--{name} must be a number above 0, got {value:g}.")
 
 
 def opened(order: Order, arguments: argparse.Namespace) -> Renderer:
-    """The renderer of an order, which has the samples that it goes on from."""
+    """Return the renderer of an order, with the samples that it continues from."""
     route, pipeline = arguments.context, arguments.pipeline
     if order.begun is None:
         recipe = recipe_of(arguments.scene)
@@ -148,10 +148,10 @@ def open_renderer(
     part: tuple[int, int] | None = None,
     decisions: Mapping[str, str] = {},
 ) -> Renderer:
-    """A renderer of a scene, which came from a picture if there is a recipe.
+    """Return a renderer of a scene; `recipe`: of the picture that the scene came from.
 
-    A picture that was relit is a weighted sum over what was traced. The same is traced again, so
-    that the same bits come out, unless light or bounces have been changed since.
+    A relit picture is a weighted sum of traced layers. The same layers are traced again, so that
+    the same bits come out, unless light or bounces have been changed since.
     """
     light = recipe.traced if recipe else None
     apart: Apart = recipe.apart if recipe else "repeated"
@@ -176,7 +176,7 @@ def _is_shown(recipe: Recipe, scene: Scene, settings: Settings) -> bool:
 
 
 def _limited(arguments: argparse.Namespace, order: Order) -> Order:
-    """The order up to the first limit of samples, time and error."""
+    """Return the order with the limits of samples, time and error; the first reached ends it."""
     is_open = arguments.time is not None or arguments.error is not None
     given = getattr(arguments, "samples", None)
     samples = samples_limit(given, order.settings.samples, is_open)
@@ -188,7 +188,7 @@ def _limited(arguments: argparse.Namespace, order: Order) -> Order:
 
 
 def _order_to_go_on(arguments: argparse.Namespace) -> Order:
-    """By the settings of the picture. What would give other samples is refused."""
+    """Return the order to continue a picture; UsageError for settings that change its samples."""
     image = Image.load(arguments.resume)
     found = image.recipe
     asked = settings_for(found.settings if found else Settings(), **settings_given(arguments))
@@ -233,7 +233,7 @@ def _check_samples(arguments: argparse.Namespace, taken: int, limits: Limits) ->
 
 @contextmanager
 def _going_on(path: str) -> Iterator[None]:
-    """Say from which picture it is that the render cannot go on."""
+    """Name the picture in the UsageError for a render that cannot be continued."""
     try:
         yield
     except UsageError as error:

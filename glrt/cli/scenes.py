@@ -1,4 +1,4 @@
-"""`glrt scenes`: what comes with glrt, to render and to learn from."""
+"""`glrt scenes`: list the scenes that come with glrt."""
 
 import argparse
 import json
@@ -13,12 +13,12 @@ EPILOG = "Each name can stand wherever a command asks for a SCENE."
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of the command."""
+    """Add the arguments of the command to its parser."""
     parser.add_argument("--json", action="store_true", help="print the list as one line of JSON")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """A line for each scene, or one of JSON for all."""
+    """Print a line for each scene, or one line of JSON for all; return 0."""
     scenes = [_facts(name) for name in all_scene_names()]
     print(json.dumps(scenes) if arguments.json else "\n".join(_table(scenes)))
     return 0

@@ -1,4 +1,4 @@
-"""`glrt schema`: the scene format for editors."""
+"""`glrt schema`: print the scene format for editors."""
 
 import argparse
 import json
@@ -10,11 +10,11 @@ EPILOG = ""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of the command."""
+    """Add no arguments: the command has none."""
     del parser  # it has none
 
 
 def run(_arguments: argparse.Namespace) -> int:
-    """`glrt schema`: the scene format as JSON Schema."""
+    """Print the scene format as JSON Schema; return 0."""
     print(json.dumps(Scene.model_json_schema(), indent=2))
     return 0

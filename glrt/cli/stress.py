@@ -1,4 +1,4 @@
-"""`glrt stress`: run cases; write a table and charts, return an exit code."""
+"""`glrt stress`: run stress cases; write a table and charts, return an exit code."""
 
 import argparse
 import json
@@ -28,7 +28,7 @@ EPILOG = (
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of the command."""
+    """Add the arguments of the command to its parser."""
     add = parser.add_argument
     add("cases", metavar="CASE", nargs="*", help="case to run (default: all)")
     add("-o", dest="folder", metavar="DIR", type=Path, help="output folder")
@@ -39,11 +39,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 BROKEN = 1
-QUICK = 0.125  # of the rows and samples of a full run
+QUICK = 0.125  # share of the rows and samples of a full run
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """The exit code: 1 when a guarantee is broken."""
+    """Run the cases and write their charts; return 1 if a guarantee is broken."""
     cases = known_cases(arguments.cases)
     if arguments.list:
         print("\n".join(f"{case.name:<10} {case.title}" for case in cases))
@@ -60,7 +60,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def known_cases(names: Sequence[str]) -> list[Case]:
-    """The cases of these names, each once, or all; `UsageError` lists them for an unknown one."""
+    """Return the cases of these names, each once, or all; an unknown one is a `UsageError`."""
     for name in names:
         if name not in CASES:
             near = nearest(name, tuple(CASES))
@@ -70,7 +70,7 @@ def known_cases(names: Sequence[str]) -> list[Case]:
 
 
 def _prepared(folder: Path | None, cases: Sequence[Case]) -> Path:
-    """The folder, made and tried before anything is measured."""
+    """Create the output folder and check that it is writable, before anything is measured."""
     if folder is None:
         raise UsageError("the output folder is missing: glrt stress -o DIR.")
     check_matplotlib()

@@ -29,7 +29,7 @@ EPILOG = (
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of the command."""
+    """Add the arguments of the command to its parser."""
     parser.add_argument(
         "scene", metavar="SCENE", nargs="?", default="cornell", help=f"{SCENE}; default: cornell"
     )
@@ -38,11 +38,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_files(parser)
 
 
-EXTRA = ("imgui_bundle", "glfw")  # what `pip install 'glrt[view]'` brings
+EXTRA = ("imgui_bundle", "glfw")  # modules that `pip install 'glrt[view]'` installs
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Show the window until it is closed; exit code 3 where none can be opened."""
+    """Show the window until it is closed; ContextError (exit code 3) if none can be opened."""
     scene, recipe = load_recipe(arguments.scene, file_rules(arguments))
     settings = settings_for(recipe or scene.render, **settings_given(arguments))
     settings = with_filter(settings)

@@ -1,4 +1,4 @@
-"""What the commands say of a picture that is not to be believed."""
+"""Cautions of the commands about a picture that may be wrong."""
 
 import math
 from collections.abc import Sequence
@@ -14,11 +14,11 @@ from glrt.scene.warnings import is_dark
 _BLACK = 3  # 8-bit codes below it look black on a screen
 _MOSTLY = 0.99  # share of the pixels
 _SHOWN = 0.5  # radiance that is bright and not clipped at exposure 0
-_LESS_SURE = {"naive", "nee"}  # methods by which more light is found by luck than by `mis`
+_LESS_SURE = {"naive", "nee"}  # methods that find more of the light by chance than `mis`
 
 
 def doubt(image: Image) -> str:
-    """A paragraph where the estimated error of a picture is not to be believed; else ""."""
+    """Return a paragraph if the estimated error of a picture may be far too small; else ""."""
     if not image.error_doubtful:
         return ""
     assert image.error is not None
@@ -33,7 +33,7 @@ def doubt(image: Image) -> str:
 
 
 def clipped(particles: int) -> str:
-    """A paragraph where particles brought more light than was kept; else ""."""
+    """Return a paragraph if particles brought more light than was kept; else ""."""
     if not particles:
         return ""
     return (
@@ -43,7 +43,7 @@ def clipped(particles: int) -> str:
 
 
 def too_dark(image: Image, outputs: Sequence[str]) -> str:
-    """A paragraph where a PNG file looks black though its scene has light; else ""."""
+    """Return a paragraph if a PNG file looks black though its scene has light; else ""."""
     if not image.recipe or not any(Path(name).suffix.lower() == ".png" for name in outputs):
         return ""
     settings = image.recipe.settings

@@ -3,10 +3,10 @@
 Modules, each importing only what stands above it:
 
 - regions: sums of pixels over the whole picture and over blocks
-- rare_light: noise that stands in single pixels
+- rare_light: noise that is concentrated in single pixels
 - noise: what chance can do to a difference
 - sensitivity: how large a change would have been found
-- result: what was found
+- result: the result of a comparison
 - verdict: same, different or undecided
 - heatmap: a picture of the difference
 """

@@ -32,7 +32,7 @@ def save_picture(comparison: Comparison, path: str | Path) -> None:
 
 
 def colors(scores: Array) -> Colors:
-    """Of scores of any shape, (..., 3) uint8: blue below 0, white, red above."""
+    """Colours of scores of any shape, (..., 3) uint8: blue below 0, white, red above."""
     place = np.clip(scores / SPAN, -1, 1)[..., None]
     dark, middle, light = _BELOW
     below = np.where(
@@ -48,7 +48,7 @@ def _mix(near: Array, far: Array, share: Array) -> Array:
 
 
 def _strongest(scores: Array) -> Array:
-    """Of the channel that lies farthest from 0, without the last axis."""
+    """The score of the channel that lies farthest from 0, without the last axis."""
     channel = np.abs(scores).argmax(axis=-1)[..., None]
     return np.asarray(np.take_along_axis(scores, channel, axis=-1)[..., 0])
 
@@ -79,7 +79,7 @@ def _draw(comparison: Comparison) -> Any:
 
 
 def _frame(draw: Any, comparison: Comparison, left: int, top: int, zoom: int) -> None:
-    """Around the worst block, on the outside: it covers no pixel of it."""
+    """Draw a frame around the worst block, on the outside: it covers no pixel of it."""
     block = comparison.worst
     x, y = left + zoom * block.x, top + zoom * block.y
     end = (x + zoom * block.width + 1, y + zoom * block.height + 1)

@@ -5,15 +5,15 @@ to know its value exactly. A test against the errors that pictures claim finds a
 almost any two of them. Two judges do better.
 
 *Shuffled*: if both pictures draw their samples of a pixel in the same way, then chance alone has
-dealt them out between the two. Given all samples, that fixes the variance of the difference, with
-no estimate left in it, and bounds each step of the sum, whatever the distribution: a hit that only
-one picture saw counts for both. The tail is Bernstein's inequality with the steps' third moment,
-and a pixel's steps are taken as one.
+dealt the samples out between the two. Given all samples, that fixes the variance of the difference,
+without any estimate. It also bounds each step of the sum, whatever the distribution: a hit that
+only one picture saw counts for both. The tail is Bernstein's inequality with the third moment of
+the steps, and all steps of a pixel count as one.
 
 *Own*: pictures of different methods have the noise that they claim, and the darker one may have
-missed hits of the size that it saw. Rare light that it met anywhere (rare_light.py), it may have
-missed here: each place has its share of that at least. Where all its noise stands in a few pixels,
-that says nothing, and the place has no vote. Both judges must agree on a difference.
+missed hits of the size that it saw. Rare light that it met anywhere (rare_light.py) it may have
+missed here: each place has at least its share of that light. A place where all noise is in a few
+pixels has no vote, since its claim says nothing. Both judges must agree on a difference.
 """
 
 from dataclasses import dataclass
@@ -26,15 +26,15 @@ import numpy as np
 from glrt.comparison.rare_light import rare_variance
 from glrt.comparison.regions import Add, Array, blocks, ratio_of, spread_out
 
-ROUNDING = 1e-5  # of the radiance: two programs may differ by that and be the same
+ROUNDING = 1e-5  # of the radiance: two equal pictures of different programs may differ by that
 FEWEST_PIXELS = 16  # that must carry the noise of a place before its own variance may judge it
 
 
 @dataclass(frozen=True, eq=False)
 class Pair:
-    """Two pictures of one size, all arrays (H, W, 3).
+    """Two pictures of one size; all arrays are (H, W, 3).
 
-    Radiance, the variance of each mean, and the samples a pixel; `alike` if both are of a method.
+    They are radiance, and the variance of each mean; `alike` if both pictures have the same method.
     `block`: how many samples make an independent observation in both.
     """
 
@@ -49,7 +49,7 @@ class Pair:
 
     @property
     def observations(self) -> float:
-        """A pixel's in both pictures, which chance deals out: samples belong to their blocks."""
+        """Observations of a pixel in both pictures, which chance deals out as whole blocks."""
         return (self.image_samples + self.reference_samples) / self.block
 
     @property
@@ -59,7 +59,7 @@ class Pair:
 
     @property
     def size(self) -> Array:
-        """The larger of both, without sign."""
+        """The larger magnitude of both."""
         return np.maximum(np.abs(self.image), np.abs(self.reference))
 
     @property
@@ -70,7 +70,7 @@ class Pair:
 
     @property
     def ratio(self) -> float:
-        """Samples of the image for one of the reference."""
+        """Samples of the image for each sample of the reference."""
         return self.image_samples / self.reference_samples
 
     @cached_property
@@ -80,20 +80,20 @@ class Pair:
 
     @cached_property
     def reference_rare(self) -> Array:
-        """The reference's."""
+        """The reference's variance in pixels that met rare light; 0 elsewhere."""
         return rare_variance(self.reference_variance, self.image_variance * self.ratio)
 
     @property
     def shuffled_variance(self) -> Array:
-        """Of the difference, if all observations of a pixel were dealt out anew."""
+        """Variance of the difference, if all observations of a pixel were dealt out again."""
         between = np.square(self.difference) / self.observations
         return self.ratio * self.image_variance + self.reference_variance / self.ratio + between
 
 
 class Judge(NamedTuple):
-    """What chance can do to the summed difference of each region.
+    """The effect of chance on the summed difference of each region.
 
-    `up` and `down` lower a score in standard errors, z, to z / sqrt(1 + up |z|): on the side where
+    `up` and `down` lower a score in standard errors, z, to z / sqrt(1 + up |z|), on the side where
     large steps make the tail heavier than that of a normal distribution. Infinite: no vote.
     """
 
@@ -102,23 +102,23 @@ class Judge(NamedTuple):
     down: Array
 
     def score(self, difference: Array) -> Array:
-        """Standard errors of a normal distribution that are as unlikely; 0 where there is none."""
+        """The score of a normal distribution that is as unlikely; 0 where `stderr` is 0."""
         z = ratio_of(difference, self.stderr)
         skew = np.where(z > 0, self.up, self.down)
         heavy = np.multiply(skew, np.abs(z), where=z != 0, out=np.zeros_like(z))
         return np.asarray(z / np.sqrt(1 + heavy))
 
     def reach(self, score: float) -> Array:
-        """The difference that scores so much, on its heavier side."""
+        """The difference that has this score, on its heavier side."""
         skew = np.maximum(self.up, self.down) * score / 2
         z = score * (skew + np.sqrt(np.square(skew) + 1))
         return np.asarray(np.multiply(z, self.stderr, where=self.stderr > 0, out=np.zeros_like(z)))
 
 
 class Sums:
-    """Weighted sums of pixels over regions, against what chance does to them.
+    """Weighted sums of pixels over regions, and their scores against chance.
 
-    Arrays have the shape that `add` gives. `score` is signed, and the mildest judge's; what lies
+    Arrays have the shape that `add` gives. `score` is signed, and the mildest judge's; a difference
     within rounding scores 0.
     """
 
@@ -141,7 +141,7 @@ class Sums:
     def factor_found(self, change: Array, score: float, power: float) -> Array:
         """The share of `change`, (H, W, 3), that each region finds with probability `power`.
 
-        That is, the sum exceeds the score on its heavier side. Infinite where `change` is 0.
+        It is found if the sum exceeds the score on its heavier side. Infinite where `change` is 0.
         """
         noise = np.max([judge.stderr for judge in self._judges], axis=0)
         seen = self.reach(score) + NormalDist().inv_cdf(power) * noise + self.rounding
@@ -153,8 +153,8 @@ class Sums:
 def even_weights(pair: Pair) -> Array:
     """Weights of pixels that show best if one picture is brighter by a factor, (H, W, 3).
 
-    They know only what stays the same however samples are dealt out: weights from the noise of
-    one picture would favour blocks that are dark by chance.
+    They use only what stays the same however samples are dealt out: weights from the noise of one
+    picture would favour blocks that are dark by chance.
     """
     variance = blocks(pair.shuffled_variance)
     level = np.maximum(blocks(pair.level), 0)
@@ -163,7 +163,7 @@ def even_weights(pair: Pair) -> Array:
 
 
 def _shuffled(pair: Pair, add: Add, weight: Array | float) -> Judge:
-    """Its heavy side is that of the picture of fewer samples, whose hits take larger steps."""
+    """The shuffled judge; its heavy side is that of fewer samples, whose hits are larger steps."""
     variance = pair.shuffled_variance * np.square(weight)
     total = add(variance)
     skew = ratio_of(add(variance**1.5), total**1.5) * abs(pair.ratio**-0.5 - pair.ratio**0.5) / 3
@@ -179,13 +179,13 @@ def _own(pair: Pair, add: Add, weight: Array | float) -> Judge:
 
 
 class _Claim:
-    """The noise of a picture's regions: the variance of their sums, and what it may have missed."""
+    """The claimed noise of a picture's regions: the variance of sums, and what they may miss."""
 
     def __init__(self, variance: Array, rare: Array, add: Add, weight: Array | float) -> None:
         variance, rare = variance * np.square(weight), rare * np.square(weight)
         share = add(np.ones_like(rare)) / rare[..., 0].size  # of all pixels
         second, third = add(variance), add(variance**1.5)
-        self.pixels = ratio_of(second**3, third**2)  # as many, equally noisy, would do the same
+        self.pixels = ratio_of(second**3, third**2)  # equally noisy pixels with the same sums
         self.second, self.third = (
             own + np.maximum(share * rare_power.sum(axis=(0, 1)) - add(rare_power), 0)
             for own, rare_power in ((second, rare), (third, rare**1.5))

@@ -35,5 +35,5 @@ def spread_out(values: Array, shape: tuple[int, ...]) -> Array:
 
 
 def ratio_of(above: Array, below: Array) -> Array:
-    """The quotient; 0 where `below` is not above 0."""
+    """The quotient; 0 where `below` is not positive."""
     return np.divide(above, below, where=below > 0, out=np.zeros_like(above))

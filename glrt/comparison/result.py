@@ -21,7 +21,7 @@ def percent(share: float, digits: int = 2, sign: str = "") -> str:
 
 
 class Interval(NamedTuple):
-    """A relative difference, image / reference - 1, and between what the truth lies."""
+    """A relative difference, image / reference - 1, and the interval in which the truth lies."""
 
     difference: float
     low: float
@@ -29,7 +29,7 @@ class Interval(NamedTuple):
 
 
 class Place(NamedTuple):
-    """Pixels of a channel, counted from the left and from the top."""
+    """A pixel or block of one channel; x is counted from the left and y from the top."""
 
     channel: str
     x: int
@@ -48,8 +48,8 @@ class HeavyTails(NamedTuple):
     """Rare light in one of two pictures: its errors are too small where it has not met any."""
 
     picture: str  # "image" or "reference"
-    pixels: int  # that have met it
-    share: float  # of the noise, which stands in these pixels
+    pixels: int  # pixels that have met it
+    share: float  # fraction of the noise that is in these pixels
 
     def __str__(self) -> str:
         return (
@@ -62,7 +62,7 @@ class HeavyTails(NamedTuple):
 class Comparison:
     """The result of `compare`; false in a condition if the pictures differ.
 
-    `str` is a line, the verdict; `repr`, as notebooks show it, the report of `glrt compare`.
+    `str` is the verdict in one line; `repr`, which notebooks show, is the report of `glrt compare`.
 
     A score is the number of standard errors of a normal distribution that is as unlikely: about 1
     by chance. Pixels that are NaN or infinite are left out of all figures.
@@ -78,7 +78,7 @@ class Comparison:
     spread: float  # root mean square of the scores of blocks
     limit: float  # a block with a score beyond it differs
     largest: float  # score of the worst block
-    worst: Place  # that block
+    worst: Place  # the block with that score
     pixel: Place  # in it, the pixel that differs most
     sensitivity: Sensitivity  # the smallest relative changes that are found
     heavy_tails: HeavyTails | None  # why the noise that a picture claims is not believed
@@ -106,7 +106,7 @@ class Comparison:
 
 
 def _report(c: Comparison) -> str:
-    """Verdict and figures, for people."""
+    """The report of `glrt compare`: verdict and figures."""
     sure = f"{100 * (1 - c.alpha):g} % interval"
     lines = [str(c), "", _row("mean", "image", "reference", "difference", sure)]
     rows = zip(CHANNELS, c.means, c.differences, strict=True)
@@ -130,7 +130,7 @@ def _report(c: Comparison) -> str:
 
 
 def _changes(found: Sensitivity) -> Iterator[str]:
-    """A row for each kind of change."""
+    """Yield a row for each kind of change."""
     yield f"  all light on surfaces  {_known(found.light)}"
     for name, size in found.groups.items():
         yield f"  light group {escaped(name)}  {_known(size)}"
@@ -138,7 +138,7 @@ def _changes(found: Sensitivity) -> Iterator[str]:
 
 
 def _known(size: float) -> str:
-    """A relative change beyond which nothing is left to find is said in words."""
+    """A relative change in percent; from UNSEEN on, in words."""
     return percent(size) if size < UNSEEN else "none: too much noise"
 
 

@@ -1,4 +1,4 @@
-"""How large a change would have been found, for kinds of change that can be named."""
+"""The smallest change that a comparison would have found, for several kinds of change."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -12,8 +12,8 @@ from glrt.comparison.regions import Array, ratio_of
 Flags = NDArray[np.bool_]
 
 POWER = 0.95  # a change "would have been found" if it is found so often
-LEAST_LIGHT = 0.01  # of all light: less than that stands for nothing
-CALM = 1 / 30  # of the usual relative noise: less is that of a lamp or sky which the camera sees
+LEAST_LIGHT = 0.01  # of all light: less of it is not representative
+CALM = 1 / 30  # of the usual relative noise: below it, the camera sees a lamp or the sky itself
 
 
 @dataclass(frozen=True)
@@ -30,16 +30,17 @@ class Sensitivity:
 
     @property
     def worst(self) -> float:
-        """That of all light, or of the group whose change is the hardest to find."""
+        """The change of all light, or of the light group that is the hardest to find."""
         return max(self.light, *self.groups.values()) if self.groups else self.light
 
 
 def sensitivity(
     pair: Pair, tests: list[tuple[Sums, float]], groups: Mapping[str, Array]
 ) -> Sensitivity:
-    """`tests`: sums with the score beyond which they differ, those of blocks last.
+    """The smallest changes that `tests` find: sums with the score from which on they differ.
 
-    `groups`: the radiance of each light group alone, (H, W, 3). A group without light is left out.
+    The last test is that of blocks. `groups` are the radiance of each light group alone, (H, W, 3).
+    A group without light is left out.
     """
     blocks, limit = tests[-1]
     is_noisy = has_noise(pair)
@@ -54,8 +55,8 @@ def sensitivity(
 def has_noise(pair: Pair) -> Flags:
     """Where the light is that of surfaces, (H, W, 3); everywhere if that is hardly any.
 
-    What the camera sees of lamps and sky itself comes with hardly any noise: it would show the
-    smallest change, which says nothing of the light on surfaces.
+    Lamps and sky that the camera sees directly have hardly any noise. They would show the smallest
+    change, which says nothing about the light on surfaces.
     """
     noise = ratio_of(np.sqrt(pair.shuffled_variance), np.abs(pair.level))
     usual = np.quantile(noise[noise > 0], 0.9) if noise.any() else 0.0
@@ -69,6 +70,6 @@ def _least(tests: list[tuple[Sums, float]], change: Array) -> float:
 
 
 def _of_most(factors: Array) -> float:
-    """That of 19 in 20 blocks, each by the channel that shows it best."""
+    """The change that 19 of 20 blocks find, each by the channel that shows it best."""
     best = factors.min(axis=-1).ravel()
     return float(np.quantile(best, POWER, method="higher"))

@@ -26,11 +26,11 @@ from glrt.plan.methods import METHODS
 
 Flags = NDArray[np.bool_]
 
-LEAST = 1e-9  # of alpha and bias
-HEAVY = 0.5  # of the noise in pixels that met rare light: a picture's errors are not believed
+LEAST = 1e-9  # least values of alpha and bias
+HEAVY = 0.5  # share of noise in pixels that met rare light: above it, errors are not believed
 SLACK = 1.1  # the standard errors of another renderer may be a tenth off: the spread allows it
-ITS_NOISE = ("method", "roulette", "sampler", "caustics")  # settings of a way
-OF_PARTICLES = ("particles", "aimed", "linked")  # and of the particles, where there are any
+ITS_NOISE = ("method", "roulette", "sampler", "caustics")  # settings that decide on the noise
+OF_PARTICLES = ("particles", "aimed", "linked")  # the same for particles, if there are any
 
 
 def compare(
@@ -41,14 +41,14 @@ def compare(
     alike: bool | None = None,
     groups: Mapping[str, Image] | None = None,
 ) -> Comparison:
-    """Whether two renders of one size are the same picture up to their noise.
+    """Decide whether two renders of one size are the same picture up to their noise.
 
-    Equal pictures are called different with probability `alpha` at most. "same" means that a
-    change of all light by `bias` would have been found, and of each light group's; otherwise the
-    verdict is "undecided". Each needs its number of samples, and one of them its standard errors.
-    `alike`: both draw their samples in the same way; by default, the recipes say so. `groups`:
-    for each light group, a picture of the same size by its light alone; without them, nothing is
-    said of groups. Raises `UsageError` for pictures that cannot be compared.
+    Equal pictures are called different with probability `alpha` at most. "same" means that a change
+    of all light by `bias` would have been found, and of each light group's; otherwise the verdict
+    is "undecided". Each picture needs its number of samples, and one of them its standard errors.
+    `alike`: both draw their samples in the same way; by default, the recipes say so. `groups`: for
+    each light group, a picture of the same size by its light alone; without them, groups are not
+    judged. Raises `UsageError` for pictures that cannot be compared.
     """
     for name, value in (("alpha", alpha), ("bias", bias)):
         if not LEAST <= value < 1:
@@ -61,7 +61,7 @@ def compare(
 
 
 def _is_broken(image: Image) -> Flags:
-    """NaN is no fault in an error: it says that the error is unknown."""
+    """Values that cannot be compared. NaN is allowed in an error: the error is unknown."""
     return ~np.isfinite(image.radiance) | np.isinf(image.stderr)
 
 
@@ -103,8 +103,8 @@ def _pair(image: Image, reference: Image, broken: Flags, alike: bool | None) -> 
     if alike is None:
         known = not (np.isnan(va) | np.isnan(vb)).any()
         alike = known and _same_method(image, reference)
-    # Of a picture that does not know its noise: the other's for its number of samples, or what the
-    # difference has beyond the other's, whichever is more.
+    # The variance of a picture without standard errors: the other's for its number of samples, or
+    # the squared difference less the other's, whichever is more.
     ratio, square = image.samples / reference.samples, np.square(a - b)
     filled = (
         np.where(np.isnan(va), np.maximum(vb / ratio, square - vb), va),
@@ -129,7 +129,7 @@ def _same_method(image: Image, reference: Image) -> bool:
 def _compared(
     pair: Pair, broken: Flags, groups: Mapping[str, Array], alpha: float, bias: float
 ) -> Comparison:
-    """A third of alpha each is for the whole picture, for blocks, for pixels without noise."""
+    """Compare a pair; the whole, the blocks and pixels without noise get a third of alpha each."""
     means, local = Sums(pair, whole), Sums(pair, blocks)
     factors = Sums(pair, whole, even_weights(pair)) if pair.alike else None
     limit = _limit(alpha / 3, local.score.size)
@@ -172,7 +172,7 @@ def _compared(
 
 
 def _heavy_tails(pair: Pair) -> HeavyTails | None:
-    """Of the picture in which rare light makes more of the noise; the methods may differ."""
+    """The picture with more rare light in its noise; None up to HEAVY, or for the same method."""
     if pair.alike:
         return None
     found = [
@@ -190,7 +190,7 @@ def _rare_share(name: str, variance: Array, rare: Array) -> HeavyTails:
 
 
 def _limit(alpha: float, tests: int) -> float:
-    """The score that one of so many tests exceeds by chance, on either side, so often."""
+    """The score that, with probability alpha, chance exceeds in one of `tests` two-sided tests."""
     return -NormalDist().inv_cdf(sidak_threshold(alpha, tests) / 2)
 
 
@@ -199,7 +199,7 @@ def _broken(broken: Flags) -> str | None:
 
 
 def _quiet(pair: Pair, alpha: float) -> str | None:
-    """Pixels without noise must agree to rounding."""
+    """The reason if pixels without noise differ by more than rounding; else None."""
     variance = pair.image_variance + pair.reference_variance
     quiet = variance <= np.square(np.finfo(np.float32).eps * pair.size)
     wrong = quiet & (np.abs(pair.difference) > ROUNDING * pair.size)
@@ -209,7 +209,7 @@ def _quiet(pair: Pair, alpha: float) -> str | None:
 
 
 def _enough_samples(pair: Pair, pixels: int, alpha: float) -> bool:
-    """Of all ways to deal out what a pixel saw, two give each picture one value alone."""
+    """Whether chance rarely deals out two values so that each picture sees only one of them."""
     a, b = pair.image_samples / pair.block, pair.reference_samples / pair.block
     log_ways = math.lgamma(a + b + 1) - math.lgamma(a + 1) - math.lgamma(b + 1)
     return math.log(2 * pixels / alpha) < log_ways
@@ -224,7 +224,7 @@ def _whole(what: str, sums: Sums | None, limit: float) -> str | None:
 
 
 def _scatter(score: Array, limit: float) -> str | None:
-    """The sum of squares against chi-squared, by the cube root of Wilson and Hilferty."""
+    """Test the sum of squares against chi-squared, by the cube root of Wilson and Hilferty."""
     ratio = np.square(score / SLACK).mean(axis=(0, 1)).max()
     narrow = 2 / (9 * score[..., 0].size)
     if (np.cbrt(ratio) - 1 + narrow) / math.sqrt(narrow) <= limit:
@@ -250,7 +250,7 @@ def _means(pair: Pair) -> tuple[tuple[float, float], ...]:
 
 
 def _needs(pair: Pair, ratio: float) -> int | None:
-    """Noise falls as the root of the samples; rounded up to two digits."""
+    """Samples that would find `bias`, to two digits; noise falls as the root of the samples."""
     if not math.isfinite(ratio):
         return None
     per_sample = 1 / pair.image_samples + 1 / pair.reference_samples
@@ -280,7 +280,7 @@ def _worst_pixel(scores: Array, block: Place) -> Place:
 
 
 def _some(flags: Flags) -> str:
-    """How many, and where the first is."""
+    """How many pixels are flagged, and where the first one is."""
     row, column, channel = map(int, np.argwhere(flags)[0])
     count = int(flags.any(axis=-1).sum())
     return f"{count} pixels, the first {Place(CHANNELS[channel], column, row)}"

@@ -1,4 +1,4 @@
-"""The errors of glrt, by who can correct them; each class has the exit code of the commands."""
+"""Error classes of glrt, by who can correct the error; each has the exit code of a command."""
 
 from glrt.core.text import escaped
 
@@ -6,13 +6,13 @@ from glrt.core.text import escaped
 class GlrtError(Exception):
     r"""An error with one paragraph for the user: what is wrong, where, and what to do.
 
-    It is one line of printable text: a line break in a name of a file is shown as `\n`.
+    It is one line of printable text: a line break in a file name is shown as `\n`.
     """
 
     exit_code = 4
 
     def __init__(self, paragraph: str) -> None:
-        """Escape what cannot be printed; what it quotes may come from a damaged file."""
+        """Escape unprintable characters: quoted text may come from a damaged file."""
         super().__init__(escaped(paragraph))
 
 

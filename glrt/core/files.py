@@ -1,4 +1,4 @@
-"""Write files whole or not at all, by a rename; and refuse files that are not to be read."""
+"""Write files atomically, by a rename; refuse to read pipes, devices and files too long."""
 
 import os
 import secrets
@@ -12,19 +12,19 @@ from pathlib import Path
 from glrt.core.errors import RenderError, UsageError
 from glrt.core.text import one_line
 
-# Of libraries, not only of the system: OpenEXR raises RuntimeError when a disk is full, and Python
-# ValueError for names that no system takes.
+# Libraries raise these, not only the system: OpenEXR raises RuntimeError when a disk is full, and
+# Python raises ValueError for names that no system accepts.
 _WRITE_FAILURES = (OSError, RuntimeError, ValueError, MemoryError)
 
 
 def write_whole(path: Path, write: Callable[[Path], None]) -> None:
-    """Let `write` fill a new file in the same folder, which then takes the name `path`.
+    """Let `write` fill a temporary file in the folder of `path`, then rename it to `path`.
 
-    A reader sees the old file or the new one. Raises `RenderError` if that fails; the old file is
-    then as it was, and nothing is left beside it.
+    A reader sees either the old file or the new one. Raises `RenderError` on failure: the old file
+    then stays unchanged, and the temporary file is removed.
     """
     try:
-        target = path.resolve()  # of a link, the file that it names
+        target = path.resolve()  # for a link, the file that it points to
         if target.is_dir():
             raise IsADirectoryError(EISDIR, os.strerror(EISDIR), str(path))
         temporary = _next_to(target)
@@ -43,12 +43,12 @@ def write_whole(path: Path, write: Callable[[Path], None]) -> None:
 
 
 def write_text(path: Path, text: str) -> None:
-    """`write_whole` of a text in UTF-8."""
+    """Write a text in UTF-8 with `write_whole`; raises `RenderError` on failure."""
     write_whole(path, lambda file: _write_text(file, text))
 
 
 def make_folder(folder: Path, *names: str) -> None:
-    """Make the folder for these files, and try whether they can be written; else `UsageError`."""
+    """Create the folder; `UsageError` if that fails, or if one of these files cannot be written."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -60,7 +60,7 @@ def make_folder(folder: Path, *names: str) -> None:
 
 
 def read_at_most(path: Path, most: int) -> bytes:
-    """What a file holds. Raises OSError for what is no file, or longer than `most` bytes."""
+    """Return the content of a file; OSError if it is not a file, or longer than `most` bytes."""
     check_regular(path)
     with path.open("rb") as file:
         content = file.read(most + 1)
@@ -70,7 +70,7 @@ def read_at_most(path: Path, most: int) -> bytes:
 
 
 def check_regular(path: Path) -> None:
-    """Raise OSError for a pipe or a device, whose reading may never end, and for a folder."""
+    """Raise OSError for a folder, and for a pipe or device, whose reading may never end."""
     mode = path.stat().st_mode
     if stat.S_ISDIR(mode):
         raise IsADirectoryError(EISDIR, os.strerror(EISDIR), str(path))
@@ -79,7 +79,7 @@ def check_regular(path: Path) -> None:
 
 
 def check_writable(path: Path) -> None:
-    """Raise `UsageError` if `write_whole` could not write there; leaves nothing behind."""
+    """Raise `UsageError` if `write_whole` could not write to `path`; leaves no file behind."""
     try:
         problem = _obstacle(path)
     except (OSError, RuntimeError, ValueError) as error:
@@ -89,7 +89,7 @@ def check_writable(path: Path) -> None:
 
 
 def reason(error: BaseException) -> str:
-    """What an error says, without its number and its full stop."""
+    """Return the message of an error, without its number and its full stop."""
     if isinstance(error, OSError) and error.strerror:
         return error.strerror
     if isinstance(error, UnicodeDecodeError):
@@ -104,9 +104,9 @@ def _write_text(file: Path, text: str) -> None:
 
 
 def _obstacle(path: Path) -> str | None:
-    """Why a write would fail; raises what the system says if only trying tells.
+    """Return why a write would fail, or None; a failed trial raises the error of the system.
 
-    Permission bits say nothing to root, nor of a disk that is mounted read-only.
+    Permission bits are not enough: they do not bind root or show a disk mounted read-only.
     """
     target = path.resolve()
     if not target.parent.is_dir():
@@ -122,7 +122,7 @@ def _obstacle(path: Path) -> str | None:
 
 
 def _no_folder(path: Path, target: Path) -> str:
-    """`target` is where the path leads by its links."""
+    """Return which folder is missing; `target` is the path with its links resolved."""
     if path.is_symlink():
         return f"it is a link to {target}, and there is no folder {target.parent}"
     if path.parent.is_symlink():
@@ -135,7 +135,7 @@ def _next_to(target: Path) -> Path:
 
 
 def _create(path: Path) -> None:
-    """An empty file that did not exist, with the permissions that any new file gets."""
+    """Create an empty file that did not exist, with the permissions of any new file."""
     os.close(os.open(path, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
 
 
@@ -143,12 +143,12 @@ def _rename(temporary: Path, target: Path) -> None:
     if target.exists():
         shutil.copymode(target, temporary)
     with temporary.open("rb+") as file:
-        os.fsync(file.fileno())  # a full disk may speak up only here
+        os.fsync(file.fileno())  # a full disk may be reported only here
     os.replace(temporary, target)
 
 
 def unused(name: str) -> str:
-    """The name of a file, with a number if there is one by that name: it is not ours to replace."""
+    """Return the file name, with a number appended if it is taken, so that no file is replaced."""
     path, number = Path(name), 1
     while path.exists():
         number += 1

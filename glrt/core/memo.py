@@ -1,4 +1,4 @@
-"""Results that are kept as long as a function is asked about the same objects."""
+"""Cache of the last result of a function, valid while its arguments are the same objects."""
 
 from collections.abc import Callable
 from functools import wraps
@@ -8,9 +8,9 @@ Result = TypeVar("Result")
 
 
 def kept_for_the_same(function: Callable[..., Result]) -> Callable[..., Result]:
-    """Remember the last result; asked about the very same objects, it is given again.
+    """Decorate a function to reuse its last result while its arguments are the same objects (`is`).
 
-    To compare scenes by their values would take as long as what it spares.
+    Comparing scenes by their values would take as long as the work that it saves.
     """
     known: tuple[tuple[object, ...], Result] | None = None
 

@@ -1,4 +1,4 @@
-"""Where the shaders and the scenes lie, and the user's cache."""
+"""Folders of the shaders and the scenes, and the user's cache folder."""
 
 import os
 from pathlib import Path
@@ -7,12 +7,12 @@ _PACKAGE = Path(__file__).parents[1]
 
 
 def folder(name: str) -> Path:
-    """`shaders_glsl` or `scenes`: inside the package in a wheel, beside it in a checkout."""
+    """Return `shaders_glsl` or `scenes`: in the package in a wheel, next to it in a checkout."""
     inside = _PACKAGE / name
     return inside if inside.is_dir() else _PACKAGE.parent / name
 
 
 def cache_folder(name: str) -> Path:
-    """A folder in the user's cache (XDG base directory specification), which may not be there."""
+    """Return a folder in the user's cache (XDG base directory specification); it may not exist."""
     base = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
     return Path(base) / "glrt" / name

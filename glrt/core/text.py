@@ -1,23 +1,23 @@
-"""Quote words and numbers of the user in messages: short, on one line, with the nearest match."""
+"""Format words and numbers of the user for messages: short, on one line, with suggestions."""
 
 from collections.abc import Iterable, Mapping
 from functools import lru_cache
 
 
 def number(value: float) -> str:
-    """A number for a message, as short as a user would write it and never rounded."""
+    """Format a number for a message: as short as a user would write it, and never rounded."""
     short = f"{value:g}"
     return short.replace("e+", "e") if float(short) == value else repr(value)
 
 
 def shortened(text: str) -> str:
-    """Text of the user, fit for a message: short, on one line."""
+    """Return text of the user for a message: on one line, of at most 60 characters."""
     whole = escaped(text[:61])
     return whole if len(whole) <= 60 else whole[:57] + "..."
 
 
 def escaped(text: str) -> str:
-    """Text of the user, whole, with what cannot be printed as in Python: a line break is `\\n`."""
+    """Return the text with unprintable characters escaped as in Python: a line break is `\\n`."""
     return "".join(
         letter if letter.isprintable() else letter.encode("unicode_escape").decode()
         for letter in text
@@ -25,18 +25,18 @@ def escaped(text: str) -> str:
 
 
 def one_line(text: str) -> str:
-    """Text of a library or a driver, on one line."""
+    """Return text of a library or a driver on one line, with single blanks."""
     return " ".join(text.split())
 
 
 def quoted(word: str) -> str:
-    """A word of the user, fit for a message, in quotes."""
+    """Return a word of the user in quotes, shortened for a message."""
     return f"'{shortened(word)}'"
 
 
 @lru_cache(maxsize=64)  # a mistake often repeats in thousands of objects
 def nearest(word: str, known: tuple[str, ...]) -> str | None:
-    """The known word that the user probably meant, if any comes near."""
+    """Return the known word that the user probably meant; None if none is similar."""
     from difflib import get_close_matches
 
     near = get_close_matches(word.lower(), known, n=1)
@@ -50,9 +50,9 @@ def unknown(
     owner: str = "The scene has",
     short: Mapping[str, str] | None = None,
 ) -> str:
-    """Advice about a word that is none of the known ones: the nearest of them, and them all.
+    """Return advice about an unknown word: the nearest known word, and a list of the known ones.
 
-    `short` are other words that the user may have meant, with the known one for each.
+    `short` maps other words that the user may have meant to known words.
     """
     names = tuple(known)
     near = nearest(word, tuple(short or names))
@@ -64,12 +64,12 @@ def unknown(
 
 
 def counted(number: int, noun: str) -> str:
-    """A number of things in words: no lamps, 1 lamp, 2 lamps."""
+    """Return a number of things in words: no lamps, 1 lamp, 2 lamps."""
     return f"{number or 'no'} {noun if number == 1 else plural(noun)}"
 
 
 def plural(noun: str) -> str:
-    """Lamps, boxes, meshes, vertices."""
+    """Return the plural of a noun: lamps, boxes, meshes, vertices."""
     if noun == "vertex":
         return "vertices"
     return f"{noun}{'es' if noun.endswith(('x', 'sh')) else 's'}"

@@ -1,6 +1,6 @@
-"""Denoising that knows its error: filters, and what they leave wrong; arrays in, arrays out.
+"""Denoising with a known error: filters, and what they leave wrong; arrays in, arrays out.
 
-It stands above the pictures, which show what it returns, and knows no film, file or driver.
+It knows no picture, film, file or driver; pictures show its results.
 
 Modules, each importing only what stands above it:
 
@@ -9,7 +9,7 @@ Modules, each importing only what stands above it:
 - nlm: joint non-local means
 - oidn: Intel's Open Image Denoise
 - filters: the filters by name, and which of them are installed
-- blend: the picture as it was, where a filter would make it worse
+- blend: mixes in the unfiltered picture where a filter would make it worse
 - risk: the mean squared error of a filtered picture, from two halves
-- denoising: two halves in, a picture and its error out
+- denoising: makes a denoised picture and its error from two halves
 """

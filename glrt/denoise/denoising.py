@@ -1,4 +1,4 @@
-"""Two halves in, a picture and its error out."""
+"""Make a denoised picture and its error from two halves of the samples."""
 
 import math
 from dataclasses import dataclass
@@ -13,20 +13,20 @@ from glrt.denoise.risk import error_map, relative_error, squared_error, summed
 
 @dataclass(frozen=True, eq=False)
 class Denoised:
-    """A picture filtered, and how wrong it is: noise and bias of the filter together."""
+    """A filtered picture, and its error: noise and bias of the filter together."""
 
     radiance: Pixels  # (H, W, 3)
     error_map: Pixels  # (H, W, 3): root mean squared error about each pixel, in units of radiance
     error: float  # relative RMS error of the picture, as estimated
-    error_high: float  # what that is below in 95 of 100 cases
-    noise: Pixels | None = None  # (H, W, 3): its square is the variance that is left, in the mean;
-    # what the error is beyond is bias. None in what was read from a file
+    error_high: float  # upper limit of `error` in 95 of 100 cases
+    noise: Pixels | None = None  # (H, W, 3): its square is the variance that is left, on average;
+    # the rest of the error is bias. None if read from a file
 
 
 def denoise(halves: tuple[Half, Half], name: str) -> Denoised:
-    """Both halves filtered by their own guides and errors, and put together.
+    """Filter both halves by their own guides and errors, and combine them.
 
-    `name` is a key of `FILTERS`. UsageError where the package of the filter is not installed.
+    `name` is a key of `FILTERS`. Raises UsageError if the package of the filter is not installed.
     """
     first, second = (blended(half, FILTERS[name](half)) for half in halves)
     radiance = summed(halves, (first, second))

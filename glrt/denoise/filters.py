@@ -14,14 +14,14 @@ from glrt.settings import Settings
 
 
 class Filtered(NamedTuple):
-    """What a filter returns."""
+    """The result of a filter."""
 
     radiance: Pixels  # (H, W, 3)
-    own_weight: NDArray[np.float32]  # (H, W): how much a pixel follows its own noise, 0 to 1
+    own_weight: NDArray[np.float32]  # (H, W): weight of a pixel's own noise in its result, 0 to 1
 
 
 def _by_oidn(half: Half) -> Filtered:
-    """A trained filter does not tell how much a pixel follows its own noise: little."""
+    """Filter by OIDN. It does not report the weight of a pixel's own noise: it is taken as 0."""
     return Filtered(oidn.filtered(half), np.zeros(half.radiance.shape[:2], np.float32))
 
 
@@ -35,14 +35,14 @@ LEAST = 2  # observations a half: fewer have no variance
 
 
 def least_samples(block: int) -> int:
-    """Samples a pixel that two halves need; `block` samples make an observation."""
+    """Samples per pixel that two halves need; `block` samples make an observation."""
     return 2 * LEAST * block
 
 
 def with_filter(settings: Settings) -> Settings:
-    """Settings that name the filter: `auto` is oidn where it is installed, else nlm.
+    """Settings that name the filter: `auto` is oidn if it is installed, else nlm.
 
-    UsageError for oidn where it is not, and for samples too few for two halves.
+    Raises UsageError for oidn if it is not installed, and for too few samples for two halves.
     """
     least = least_samples(settings.block)
     if settings.denoise != "none" and settings.samples < least:

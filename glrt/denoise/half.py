@@ -1,4 +1,4 @@
-"""Half of the samples of a picture, with what guides a filter."""
+"""Half of the samples of a picture, with the guides of a filter."""
 
 from typing import NamedTuple
 
@@ -9,22 +9,22 @@ Pixels = NDArray[np.float32]
 
 
 class Guide(NamedTuple):
-    """What is known of the first surface behind each pixel, (H, W, 3) each."""
+    """An AOV of the first surface behind each pixel: mean and variance, (H, W, 3) each."""
 
     mean: Pixels
-    variance: Pixels  # of that mean
+    variance: Pixels  # variance of that mean
 
 
 class Half(NamedTuple):
-    """Means over some samples of a picture; those of the two halves are independent."""
+    """Means over half of the samples of a picture; the two halves are independent."""
 
     radiance: Pixels  # (H, W, 3)
-    variance: Pixels  # of that mean, (H, W, 3); an estimate without bias
-    share: float  # of the samples of the picture, 0 to 1; the two make 1
+    variance: Pixels  # variance of that mean, (H, W, 3); an estimate without bias
+    share: float  # of the picture's samples, 0 to 1; both shares add to 1
     albedo: Guide
     normal: Guide
 
     @property
     def guides(self) -> tuple[Guide, Guide]:
-        """Both guides."""
+        """The two guides, albedo and normal."""
         return self.albedo, self.normal

@@ -1,8 +1,8 @@
-"""Joint non-local means: each pixel becomes a mean of those whose surroundings look alike.
+"""Joint non-local means: each pixel becomes a mean of pixels whose surroundings look alike.
 
-Colours are compared by patches, guides by pixels, both in units of their noise and less the
-distance that noise alone makes. So what differs by no more than noise has weight 1, whatever the
-noise. The weights are symmetric, each pair of pixels is compared once.
+Colours are compared by patches, guides by pixels. Distances are in units of the noise, less the
+distance that noise alone makes. So a difference within the noise has weight 1, whatever the noise.
+The weights are symmetric, so each pair of pixels is compared once.
 
 Buades, Coll and Morel, "A Non-Local Algorithm for Image Denoising" (2005); Rousselle, Knaus and
 Zwicker, "Adaptive Rendering with Non-Local Means Filtering" (2012), equations 3 to 5; Rousselle,
@@ -19,7 +19,7 @@ REACH = 7  # of the window in pixels: how far a pixel looks
 PATCH = 2  # of a patch: 5 x 5 pixels are compared at once
 NOISE_REACH = 1  # pixels over which variances are averaged: those of few observations are rough
 COLOR = 0.8  # a distance of colours, in standard deviations, that makes a weight of 1 / e
-GUIDE = 1.5  # the same of guides
+GUIDE = 1.5  # the same distance for guides
 LEAST = 3e-3  # variance of guides below which they count as equal
 NO_NOISE = 1e-10  # variance added to those of colours, in squared units of radiance
 
@@ -27,7 +27,7 @@ Plane = NDArray[np.float32]
 
 
 def filtered(half: Half) -> tuple[Pixels, Plane]:
-    """The radiance filtered, (H, W, 3), and of each pixel its own weight in the mean, (H, W)."""
+    """The filtered radiance, (H, W, 3), and the weight of each pixel in its own mean, (H, W)."""
     color, variance = half.radiance, window_mean(half.variance, NOISE_REACH)
     spans = [_span(guide) for guide in half.guides]
     total = color.astype(np.float64)
@@ -45,7 +45,7 @@ def filtered(half: Half) -> tuple[Pixels, Plane]:
 
 
 def _alike(color: Pixels, variance: Pixels, here: Place, there: Place) -> Plane:
-    """Weights of pairs by their colours, from patches about them."""
+    """Weights of pairs of pixels by colour, from the patches around them."""
     a, b = variance[here], variance[there]
     apart = np.square(color[here] - color[there]) - 2 * np.minimum(a, b)
     distance = apart / (COLOR**2 * (a + b) + NO_NOISE)
@@ -54,13 +54,13 @@ def _alike(color: Pixels, variance: Pixels, here: Place, there: Place) -> Plane:
 
 
 def _span(guide: Guide) -> Pixels:
-    """What a difference of a guide is measured by: its noise, or its slope where that is more."""
+    """The unit of differences of a guide: its variance, or its squared slope if that is more."""
     slope = _step(guide.mean, 0) + _step(guide.mean, 1)
     return np.asarray(np.maximum(np.maximum(guide.variance, slope), LEAST), np.float32)
 
 
 def _step(mean: Pixels, axis: int) -> Pixels:
-    """Square of the smaller of the steps to either neighbour: an edge is none, a slope is."""
+    """Square of the smaller step to the two neighbours: small at an edge, large on a slope."""
     steps = np.square(np.diff(mean, axis=axis))
     none = np.full_like(mean.take([0], axis), np.inf)
     before, after = np.concatenate([none, steps], axis), np.concatenate([steps, none], axis)
@@ -69,7 +69,7 @@ def _step(mean: Pixels, axis: int) -> Pixels:
 
 
 def _same_surface(guide: Guide, span: Pixels, here: Place, there: Place) -> Plane:
-    """Weights of pairs by a guide."""
+    """Weights of pairs of pixels by one guide."""
     a, b = guide.variance[here], guide.variance[there]
     apart = np.square(guide.mean[here] - guide.mean[there]) - 2 * np.minimum(a, b)
     distance = apart / (GUIDE**2 * np.minimum(span[here], span[there]))

@@ -1,6 +1,6 @@
 """Intel's Open Image Denoise, a trained filter, by the Python package pyoidn.
 
-Noise must not be shared between pixels, as it is not on a film that counts a sample to one pixel.
+The noise of pixels must be independent. On a film it is, since each sample counts to one pixel.
 Afra, "Intel Open Image Denoise" (www.openimagedenoise.org), filter RT.
 """
 
@@ -15,12 +15,12 @@ PACKAGE = "pyoidn"
 
 
 def is_installed() -> bool:
-    """Whether the package is there; it is not loaded."""
+    """Whether the package is installed; it is not imported."""
     return find_spec(PACKAGE) is not None
 
 
 def check() -> None:
-    """UsageError where the package is not there."""
+    """Raise UsageError if the package is not installed."""
     if not is_installed():
         raise UsageError(
             f"--denoise oidn needs the Python package {PACKAGE}: type "
@@ -30,10 +30,10 @@ def check() -> None:
 
 
 def filtered(half: Half) -> Pixels:
-    """The radiance filtered, (H, W, 3); the same bits each time.
+    """The filtered radiance, (H, W, 3); the same bits each time.
 
-    The guides are told to be free of noise: beside the noise of light they nearly are, and edges
-    stay sharper so.
+    The guides are declared free of noise. Compared to the light they nearly are, and edges stay
+    sharper so.
     """
     check()
     from pyoidn import denoise

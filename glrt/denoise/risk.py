@@ -1,17 +1,17 @@
 """The mean squared error of a filtered picture, from two halves, without bias.
 
-A and B are independent means over shares a and b = 1 - a of the samples. D(A) may be anything that
-is made of A alone. As B knows nothing of it, the error of D(A) is (D(A) - B)^2 less the variance
-of B, on average; and that of D(B) in turn. The picture a D(A) + b D(B) then has the error
+A and B are independent means over shares a and b = 1 - a of the samples. D(A) may be any function
+of A alone. As B is independent of it, the squared error of D(A) is (D(A) - B)^2 less the variance
+of B, on average; likewise for D(B). The picture a D(A) + b D(B) then has the squared error
 
     a [(D(A) - B)^2 - Var B] + b [(D(B) - A)^2 - Var A] - a b [D(A) - D(B)]^2
 
-since the square of a sum of two errors is a x^2 + b y^2 - a b (x - y)^2. A single pixel's may be
-negative: what is told are sums. With D the identity the formula is the variance of the plain
-picture; with a constant D it is the squared bias.
+since the square of a sum of two errors is a x^2 + b y^2 - a b (x - y)^2. The value of a single
+pixel may be negative, so only sums are reported. With D the identity the formula is the variance of
+the plain picture; with a constant D it is the squared bias.
 
-The split is that of cross-validation; Rousselle, Knaus and Zwicker, "Adaptive Sampling and
-Reconstruction using Greedy Error Minimization" (2011), for estimates of error that drive filters.
+The split is that of cross-validation. Estimates of error that drive filters are in Rousselle, Knaus
+and Zwicker, "Adaptive Sampling and Reconstruction using Greedy Error Minimization" (2011).
 """
 
 import math
@@ -32,7 +32,7 @@ Squares = NDArray[np.float64]
 
 
 def squared_error(halves: tuple[Half, Half], denoised: tuple[ArrayLike, ArrayLike]) -> Squares:
-    """Of each pixel of the sum, (H, W, 3); unbiased, may be negative. `denoised`: D(A), D(B)."""
+    """Squared error per pixel, (H, W, 3); unbiased, may be negative. `denoised`: D(A), D(B)."""
     (first, second), (a, b) = halves, (np.asarray(d, np.float64) for d in denoised)
     of_first = np.square(a - second.radiance) - second.variance
     of_second = np.square(b - first.radiance) - first.variance
@@ -42,25 +42,25 @@ def squared_error(halves: tuple[Half, Half], denoised: tuple[ArrayLike, ArrayLik
 
 
 def summed(halves: tuple[Half, Half], denoised: tuple[Pixels, Pixels]) -> Pixels:
-    """What is shown: a D(A) + b D(B), (H, W, 3)."""
+    """The combined picture a D(A) + b D(B), (H, W, 3)."""
     (first, second), (a, b) = halves, denoised
     return (first.share * a.astype(np.float64) + second.share * b).astype(np.float32)
 
 
 class Band(NamedTuple):
-    """A relative RMS error as estimated, and what it is below in 95 of 100 cases."""
+    """An estimated relative RMS error, and its upper limit in 95 of 100 cases."""
 
     error: float
     high: float
 
 
 def relative_error(squares: Squares, radiance: Pixels) -> Band:
-    """Of a picture: sqrt(mean(squares / (radiance^2 + 0.01 mean(radiance)^2))).
+    """Relative RMS error of a picture: sqrt(mean(squares / (radiance^2 + 0.01 mean(radiance)^2))).
 
-    As the error of plain pictures is taken, but a pixel brighter than the 3 x 3 about it counts as
-    bright as these: else what is much too bright would divide its own error. 0 where chance makes
-    the mean negative; the upper end tells how much that says, from the spread of pixels, whose
-    noise is independent.
+    It is the error of plain pictures with one change: a pixel brighter than the mean of its 3 x 3
+    counts as bright as that mean. Otherwise a pixel that is much too bright would divide its own
+    error. The error is 0 where chance makes the mean negative. The upper limit follows from the
+    spread of pixels, whose noise is independent.
     """
     values = radiance.astype(np.float64)
     usual = np.minimum(values, window_mean(values, 1))
@@ -73,5 +73,5 @@ def relative_error(squares: Squares, radiance: Pixels) -> Band:
 
 
 def error_map(squares: Squares) -> Pixels:
-    """Root of the mean squared error about each pixel, (H, W, 3), in units of radiance."""
+    """Root of the mean squared error around each pixel, (H, W, 3), in units of radiance."""
     return np.sqrt(np.maximum(window_mean(squares, REGION), 0)).astype(np.float32)

@@ -11,9 +11,9 @@ Place = tuple[slice, ...]
 
 
 def window_mean(image: Array, reach: int) -> Array:
-    """Mean over the (2 reach + 1)^2 pixels about each; (H, W, ...) of the type that came.
+    """Mean over the (2 reach + 1)^2 pixels around each pixel; (H, W, ...), of the given type.
 
-    At the border over the pixels that are there. Sums run in float64.
+    At the border it is over the pixels that exist. Sums are in float64.
     """
     result = image.astype(np.float64)
     for axis in (0, 1):
@@ -38,15 +38,15 @@ def _counts(shape: tuple[int, ...], reach: int, axis: int) -> Array:
 
 
 def _ends(length: int, reach: int) -> tuple[Array, Array]:
-    """First neighbour of each place, and the one after the last."""
+    """The first neighbour of each place, and the one after the last neighbour."""
     places = np.arange(length)
     return np.maximum(places - reach, 0), np.minimum(places + reach + 1, length)
 
 
 def pairs(size: tuple[int, ...], reach: int) -> Iterator[tuple[Place, Place]]:
-    """Each pair of pixels of a picture (H, W) once that lie up to `reach` apart either way.
+    """Yield each pair of pixels of a picture (H, W) once that are up to `reach` apart either way.
 
-    All pairs of an offset come at once: the places of the one and those of the other.
+    All pairs of one offset come together: the places of the first pixels, and those of the second.
     """
     height, width = size
     across = min(reach, width - 1)
@@ -57,7 +57,7 @@ def pairs(size: tuple[int, ...], reach: int) -> Iterator[tuple[Place, Place]]:
 
 
 def _overlap(size: tuple[int, ...], offset: tuple[int, int]) -> tuple[Place, Place]:
-    """Where a pixel and the one at the offset both lie in the picture."""
+    """Slices of the pixels whose partner at the offset is in the picture, and of the partners."""
     here, there = [], []
     for length, step in zip(size, offset, strict=True):
         here.append(slice(max(0, -step), max(0, length - max(0, step))))

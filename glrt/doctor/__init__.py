@@ -1,4 +1,4 @@
-"""Which OpenGL routes work on a machine.
+"""Test which OpenGL routes work on a machine.
 
 Modules, each importing only what stands above it:
 

@@ -1,4 +1,4 @@
-"""What to install or set where OpenGL does not work, by system."""
+"""Hints on what to install or set where OpenGL does not work, by system."""
 
 import os
 import platform
@@ -31,7 +31,7 @@ _BY_ID = {
 
 
 def systems_here(release: str | None = None) -> list[str]:
-    """Those of REMEDIES that this machine is; `release` is the text of /etc/os-release."""
+    """Return the keys of REMEDIES that fit this machine; `release`: text of /etc/os-release."""
     if sys.platform in ("darwin", "win32"):
         found = [{"darwin": "macOS", "win32": "Windows"}[sys.platform]]
     else:
@@ -44,7 +44,7 @@ def systems_here(release: str | None = None) -> list[str]:
 
 
 def remedies() -> list[str]:
-    """A line for each system that this machine is; for all of them if it is none that is known."""
+    """Return a line for each system that fits this machine; for all if its system is unknown."""
     here = systems_here()
     known = [name for name in here if name not in ("Docker", "hosted CI")]
     return [f"{name}: {REMEDIES[name]}." for name in (here if known else REMEDIES)]

@@ -1,10 +1,10 @@
-"""What glrt could do, but not on this machine, and what would bring it."""
+"""Features that this machine lacks, and what to install for them."""
 
 from importlib.util import find_spec
 
 from glrt.plan.combinations import MEANINGS, Way
 
-# What an extra of the package is for, and the modules that it brings.
+# Purpose of each extra of the package, and the modules that it installs.
 EXTRAS = {
     "view": ("the window", ("imgui_bundle", "glfw")),
     "chart": ("charts and stress tests", ("matplotlib",)),
@@ -13,7 +13,7 @@ EXTRAS = {
 
 
 def lacking(has_compute: bool) -> list[str]:
-    """One line for each thing that is not there; `has_compute`: whether compute shaders work."""
+    """Return a line for each missing feature; `has_compute`: whether compute shaders work."""
     missing = [
         f"{purpose}: pip install 'glrt[{extra}]'"
         for extra, (purpose, modules) in EXTRAS.items()

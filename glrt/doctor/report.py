@@ -1,7 +1,7 @@
-"""Which OpenGL routes work on this machine, what the drivers do, and what to do if none works.
+"""Report which OpenGL routes work here, how their drivers behave, and what helps if none works.
 
-Each route is tried in a process of its own: a driver that crashes or hangs is a finding, not the
-end of the doctor.
+Each route is tried in a process of its own: a driver that crashes or hangs is a finding, and does
+not end `glrt doctor`.
 """
 
 import json
@@ -20,42 +20,42 @@ from glrt.doctor.missing_features import lacking
 from glrt.gpu.context import MOST_DEVICES, ROUTES
 from glrt.gpu.driver_checks import MOST_ROUNDS
 
-PATIENCE = 120  # seconds for one route: a cold software driver compiles for some of them
+PATIENCE = 120  # seconds for one route: a software driver may compile for some of them
 PIPELINES = ("compute", "fragment")
-EXACT = 1e-5  # the relative error of a furnace that is right on any driver
+EXACT = 1e-5  # relative error below which a furnace counts as right, on any driver
 
 Finding = dict[str, Any]
 
 
 @dataclass(frozen=True)
 class Examination:
-    """What was found of one device of a route."""
+    """Findings about one device of a route."""
 
     route: str
     device: int
     found: dict[str, Finding]  # by step, in order: open, fragment, self_test, compute, end
-    end: str  # how the process ended, if not of itself
+    end: str  # how the process failed; "" if it ran to its end
 
     @property
     def opens(self) -> bool:
-        """Whether there is a context."""
+        """Whether an OpenGL context could be opened."""
         return "renderer" in self.found.get("open", {})
 
     @property
     def works(self) -> bool:
-        """Whether a pipeline renders the furnace right."""
+        """Whether one of the pipelines renders the furnace correctly."""
         return any(self.found.get(step, {}).get("furnace", 1.0) < EXACT for step in PIPELINES)
 
 
 class Used(NamedTuple):
-    """What a render would take."""
+    """Route and device that a render uses by default."""
 
     route: str
     device: int
 
 
 def examine(route: str, device: int = 0, command: Sequence[str] = ()) -> Examination:
-    """Try a device of a route in a process; `command` stands in for that process in tests."""
+    """Examine a device of a route in a separate process; tests replace it by `command`."""
     arguments = command or (sys.executable, "-m", "glrt.doctor.route_process", route, str(device))
     try:
         done = subprocess.run(arguments, capture_output=True, text=True, timeout=PATIENCE)
@@ -66,19 +66,19 @@ def examine(route: str, device: int = 0, command: Sequence[str] = ()) -> Examina
 
 
 def examine_all() -> list[Examination]:
-    """Every route, and every device of EGL."""
+    """Examine every route, and every device of EGL."""
     examinations = []
     for route in ROUTES:
         for device in range(MOST_DEVICES if route == "egl" else 1):
             examination = examine(route, device)
             if device and not examination.opens and not examination.end:
-                break  # EGL has no more
+                break  # EGL has no more devices
             examinations.append(examination)
     return examinations
 
 
 def report(as_json: bool = False) -> tuple[str, bool]:
-    """What works here, as text or as one line of JSON, and whether anything does."""
+    """Return the report, as text or as one line of JSON, and whether any route works."""
     examinations = examine_all()
     used = _used(examine("auto"))
     works = any(examination.works for examination in examinations)
@@ -93,13 +93,13 @@ def report(as_json: bool = False) -> tuple[str, bool]:
 
 
 def _used(auto: Examination) -> Used | None:
-    """What `auto` chose, if anything."""
+    """Return the route and device that `auto` chose; None if it opened none."""
     opening = auto.found.get("open", {})
     return Used(opening["route"], opening["device"]) if "route" in opening else None
 
 
 def _has_compute(used: Used | None, examinations: list[Examination]) -> bool:
-    """Whether compute shaders work on the route that a render would take."""
+    """Whether compute shaders work on the route that a render uses by default."""
     chosen = [examination for examination in examinations if _is_of(examination, used)]
     return any(e.found.get("compute", {}).get("furnace", 1.0) < EXACT for e in chosen)
 
@@ -193,7 +193,7 @@ def _verdict(used: Used | None, examinations: list[Examination]) -> str:
 
 
 def findings(found: Finding | None) -> list[str]:
-    """One line for each thing that the driver was tried for."""
+    """Return a line for each property of the driver that the self-test measured."""
     if found is None:
         return ["  the self-test needs compute shaders, which OpenGL 4.3 brings"]
     if "error" in found:

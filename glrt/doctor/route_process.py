@@ -1,7 +1,7 @@
-"""One OpenGL route tried out: `python -m glrt.doctor.route_process ROUTE DEVICE`.
+"""Examine one OpenGL route: `python -m glrt.doctor.route_process ROUTE DEVICE`.
 
-Each finding is printed as a line of JSON as soon as it is known, so that a driver that crashes
-takes only the rest along. `glrt doctor` reads them.
+Each finding is printed as a line of JSON at once, so that a crash of the driver loses only the
+later ones. `glrt doctor` reads them.
 """
 
 import json
@@ -32,10 +32,10 @@ _ROOM = {
 
 
 def furnace(context: Context, pipeline: Resolved) -> float:
-    """The largest relative error of a room that emits 1 everywhere and reflects half of it.
+    """Return the largest relative error of a furnace: a room that emits 1 and reflects half of it.
 
-    It shows (1 - a^(B+1)) / (1 - a) in every direction, a = 1/2, B = BOUNCES: a sum of powers of
-    two, so that the picture is exact to the last bit where arithmetic is.
+    Its radiance is (1 - a^(B+1)) / (1 - a) in every direction, a = 1/2, B = BOUNCES. This is a sum
+    of powers of two, so that the picture is exact to the last bit where arithmetic is.
     """
     scene = parse_scene(_ROOM, "the furnace")
     settings: dict[str, Any] = {"width": 32, "height": 32, "bounces": BOUNCES, "roulette": False}
@@ -46,7 +46,7 @@ def furnace(context: Context, pipeline: Resolved) -> float:
 
 
 def _examine(context: Context) -> None:
-    """The fragment pipeline first: it may work where compute shaders take the driver along."""
+    """Try the fragment pipeline first: it may work where compute shaders crash the driver."""
     _report("fragment", lambda: {"furnace": furnace(context, "fragment")})
     if context.has_compute:
         _report("self_test", lambda: asdict(self_test(context)))
@@ -63,7 +63,7 @@ def _report(step: str, find: Any) -> None:
 
 
 def main(route: str, device: int) -> None:
-    """Examine a device of a route, or only open what `auto` chooses."""
+    """Examine a device of a route; for `auto`, only open the context that it chooses."""
     opened: list[Context] = []
 
     def open_it() -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""What stands beside each pixel."""
+"""The brightest neighbour of each pixel."""
 
 import math
 from typing import Any
@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 
 def brightest_around(values: NDArray[Any]) -> NDArray[Any]:
-    """Of the eight neighbours of each pixel, by channel; -inf for a picture of one pixel."""
+    """Maximum of the eight neighbours of each pixel, by channel; -inf for a single pixel."""
     height, width = values.shape[:2]
     framed = np.pad(values, ((1, 1), (1, 1), (0, 0)), constant_values=-math.inf)
     found = np.full_like(values, -math.inf)

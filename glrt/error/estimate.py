@@ -12,9 +12,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from glrt.error.brightest_neighbour import brightest_around
 
-BAND = 1 << 18  # values in work at a time: copies in float64 stay small beside the image
+BAND = 1 << 18  # values in work at a time: copies in float64 stay small compared to the image
 DARK = 0.01  # keeps dark pixels from ruling the relative error (a share of the squared mean)
-UNSURE = 4.0  # squared standard errors: a radiance of less than two of them may be luck alone
+UNSURE = 4.0  # squared standard errors: a radiance below two standard errors may be luck
 LUCK = 32.0  # times the true radiance: what one lucky sample shows is no more, in 249 of 250 cases
 TWO_SIDED_95 = 1.959964  # standard deviations about the mean within which 95 % lie
 
@@ -22,9 +22,9 @@ TWO_SIDED_95 = 1.959964  # standard deviations about the mean within which 95 % 
 def relative_error(level: ArrayLike, errors: ArrayLike) -> float | None:
     """Relative RMS of errors about a level: sqrt(mean(errors^2 / (level^2 + 0.01 mean(level)^2))).
 
-    For a known level, such as a reference; of a picture by itself see `estimated_error`. Both
-    arrays have one shape, (H, W, 3) for an image; all means run over pixels and channels. None
-    where `errors` hold NaN. A black level without errors has error 0.
+    For a known level, such as a reference; for a picture alone see `estimated_error`. Both arrays
+    have one shape, (H, W, 3) for an image; all means run over pixels and channels. None where
+    `errors` hold NaN. A black level without errors has error 0.
     """
     values = np.atleast_1d(level)
     squares = (np.square(values[part], dtype=np.float64) for part in _bands(values))
@@ -42,7 +42,7 @@ def estimated_error(radiance: ArrayLike, stderr: ArrayLike) -> float | None:
 
 
 class Band(NamedTuple):
-    """A relative error as estimated, and the band that chance leaves it."""
+    """An estimated relative error, with its 95 % confidence interval."""
 
     error: float
     low: float
@@ -50,11 +50,12 @@ class Band(NamedTuple):
 
 
 def error_band(radiance: ArrayLike, stderr: ArrayLike) -> Band | None:
-    """`estimated_error` of an image, (H, W, 3) each, and the interval that holds it at 95 %.
+    """`estimated_error` of an image, (H, W, 3) each, with its 95 % confidence interval.
 
-    Pixels are independent of each other, so the mean over them is as sure as their spread tells:
-    the standard error s of the error's logarithm is half that of the mean, over the mean, and the
-    band is error * exp(+-1.96 s). Light that no sample has met is in no estimate, nor in the band.
+    Pixels are independent, so their spread gives the standard error of the mean over them. The
+    standard error s of the error's logarithm is half of that, over the mean, and the interval is
+    error * exp(+-1.96 s). Light that no sample has met is neither in the estimate nor in the
+    interval. None where `stderr` holds NaN.
     """
     parts = _estimated_ratios(radiance, stderr)
     pixels = np.concatenate([ratio.mean(axis=-1) for ratio in parts])
@@ -73,9 +74,9 @@ def squared_levels(
 ) -> NDArray[np.float64]:
     """Squares of the estimated true radiance, (H, W, channels) or some rows; NaN where `stderr` is.
 
-    A pixel that a rare bright sample met is too bright by its own luck: its level is that of its
-    brightest neighbour within the picture, by channel, if that is darker. What its own noise
-    leaves certain stays: the root of radiance^2 - UNSURE stderr^2, and radiance / LUCK.
+    A pixel that a rare bright sample met is too bright by luck. So its level is that of its
+    brightest neighbour in the picture, by channel, if that is darker. But it is at least what its
+    own noise leaves certain: the root of radiance^2 - UNSURE stderr^2, and radiance / LUCK.
     """
     values, errors = np.asarray(radiance), np.asarray(stderr)
     start, stop, _ = rows.indices(len(values))
@@ -96,7 +97,7 @@ def _estimated_ratios(radiance: ArrayLike, stderr: ArrayLike) -> Iterator[NDArra
 
 
 def _bands(values: NDArray[Any]) -> list[slice]:
-    """Some rows at a time."""
+    """Slices of rows with about BAND values each."""
     rows = max(1, BAND * len(values) // max(1, values.size))
     return [slice(top, min(top + rows, len(values))) for top in range(0, len(values), rows)]
 

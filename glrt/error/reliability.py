@@ -1,14 +1,14 @@
-"""Whether an estimated error can be believed: not where it hangs on pixels that few samples lit.
+"""Whether an estimated error can be believed: not if it depends on pixels that few samples lit.
 
 A pixel that one bright sample has met has a standard error as large as its radiance, whatever that
-sample brought: beside one as bright its relative error is estimated as 1 (`squared_levels`). If so
-bright a sample is much rarer than one in those that were taken, the true radiance is far below, and
-the true error far above.
+sample brought. Next to a pixel as bright, its relative error is estimated as 1 (`squared_levels`).
+If so bright a sample is much rarer than one in the samples that were taken, the true radiance is
+far below, and the true error far above.
 
 So each pixel was lit by h = (radiance / stderr)^2 equal samples, or is as noisy as if it were. The
-number l expected of them has the density l^(h - 1) exp(-l) where a pixel beside it is half as
-bright for certain, as at the rim of a lamp; else over sqrt(l), for light that is far brighter than
-all around it is rare. A pixel that is f times as bright as it should be has l = h / f.
+number l expected of them has the density l^(h - 1) exp(-l) if a neighbour is certainly half as
+bright, as at the rim of a lamp. Else the density is divided by sqrt(l), since light that is far
+brighter than all around it is rare. A pixel f times as bright as it should be has l = h / f.
 """
 
 import math
@@ -25,22 +25,22 @@ Pixels = NDArray[np.float32]
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-LEAST_OBSERVATIONS = 4  # fewer do not tell a standard error
-TIMES = 3.0  # the true error over the estimate, by chance
-KNOWN_TIMES = 2.0  # and where the truth of its pixels is known
-DOUBTFUL = 0.05  # the chance of that from which on it is doubted: docs/results/stress.md
-TOGETHER = (1, 4, 16, 64, 256)  # pixels that may bring it about
+LEAST_OBSERVATIONS = 4  # fewer do not determine a standard error
+TIMES = 3.0  # the true error over the estimate, where luck decides
+KNOWN_TIMES = 2.0  # the same, where the truth of its pixels is known
+DOUBTFUL = 0.05  # chance of that, from which on the error is doubted: docs/results/stress.md
+TOGETHER = (1, 4, 16, 64, 256)  # numbers of pixels that may cause it together
 SURE = 100  # hits: with more a pixel is known
 
 
 def is_doubtful(
     radiance: ArrayLike, stderr: ArrayLike, observations: int, seen: Seen | None = None
 ) -> bool | None:
-    """Whether the estimated error of a picture, (H, W, 3) each, is not to be believed.
+    """Whether the estimated error of a picture, (H, W, 3) each, is doubtful.
 
-    It is not where for some k there is a chance of DOUBTFUL that k pixels are too bright, each by
-    so much that together they make the error TIMES as large; nor where the pixels whose truth is
-    `seen` make it KNOWN_TIMES as large by themselves. None where that cannot be judged: below four
+    It is if for some k there is a chance of DOUBTFUL that k pixels are too bright, by so much that
+    together they make the error TIMES as large. It also is if the pixels in `seen`, whose truth is
+    known, make it KNOWN_TIMES as large by themselves. None if that cannot be judged: below four
     observations, without an estimate, or without noise or light.
     """
     error = estimated_error(radiance, stderr) if observations >= LEAST_OBSERVATIONS else None
@@ -61,7 +61,7 @@ def is_doubtful(
 
 
 def _excess(values: Pixels, errors: Pixels, seen: Seen) -> float:
-    """By how much the squared errors of pixels are above the estimated ones, over channels."""
+    """Sum over `seen` pixels of true less estimated squared errors, averaged over channels."""
     value = values[seen.rows, seen.columns].astype(np.float64)
     apart, variance = value - seen.radiance, np.square(errors[seen.rows, seen.columns], dtype=float)
     mean = values.mean(dtype=np.float64)
@@ -82,9 +82,9 @@ def _squared_level(values: Pixels, errors: Pixels, row: int, column: int) -> Arr
 
 
 class Unsure(NamedTuple):
-    """The values of a picture that few samples lit, (n,) each, of so many channels."""
+    """The values of a picture that few samples lit, (n,) each, of all `channels`."""
 
-    most: Array  # squared relative error: that of a truth as dark as its darkest neighbour
+    most: Array  # squared relative error if the truth is as dark as the darkest neighbour
     share: Array  # squared relative error, as estimated
     hits: Array
     shape: Array  # of the gamma distribution of the number expected
@@ -93,10 +93,10 @@ class Unsure(NamedTuple):
 
 
 def _chance(found: Unsure, room: float, together: int) -> float:
-    """That so many pixels add `room` to the sum of squared relative errors.
+    """The chance that `together` pixels add `room` to the sum of squared relative errors.
 
-    A pixel brings its part of that if its squared relative error is above the estimated one by so
-    much, for which something beside it must be dark enough.
+    A pixel adds its part of `room` if its squared relative error exceeds the estimate by that much.
+    For this a neighbour must be dark enough.
     """
     bound = room / together + found.share
     places = found.most > bound
@@ -111,9 +111,9 @@ def _chance(found: Unsure, room: float, together: int) -> float:
 
 
 def _below(limit: Array, shape: Array, log_gamma: Array) -> Array:
-    """The chance that a number of the gamma distribution of such a shape is below `limit` < shape.
+    """The chance that a gamma-distributed number of such a shape is below `limit` < shape.
 
-    The first terms of its series, and a geometric one above the rest.
+    An upper bound: the first terms of its series, and a geometric series above the rest.
     """
     series = 1 + limit / (shape + 1) / (1 - limit / (shape + 2))
     first = np.exp(shape * np.log(limit) - limit - log_gamma)
@@ -121,7 +121,7 @@ def _below(limit: Array, shape: Array, log_gamma: Array) -> Array:
 
 
 def _unsure(values: Pixels, errors: Pixels) -> Unsure:
-    """What few samples lit, some rows at a time."""
+    """Collect the values that few samples lit, some rows at a time."""
     height, width, channels = values.shape
     rows = max(1, BAND // (width * channels))
     parts = [_of_rows(values, errors, top, top + rows) for top in range(0, height, rows)]
@@ -139,7 +139,7 @@ def _unsure(values: Pixels, errors: Pixels) -> Unsure:
 def _of_rows(
     values: Pixels, errors: Pixels, top: int, end: int
 ) -> tuple[Array, Array, Array, Array, Mask]:
-    """Some rows: squares of what few samples lit, squared levels, hits, darkest beside, rims."""
+    """Values in rows that few samples lit: squares, levels, hits, darkest neighbours, is rim."""
     value, error = (part[top:end].astype(np.float64) for part in (values, errors))
     places = (error > 0) & (value > 0) & (value**2 < SURE * error**2)
     about = slice(max(top - 1, 0), end + 1)

@@ -1,7 +1,7 @@
 """Whether the estimated error of a picture of a scene can be believed.
 
-By what its pixels tell (`reliability`), and by what the scene tells: what lamps in view show in
-truth (`seen_lamps`).
+It is judged by its pixels (`reliability`) and by the scene, which gives the true radiance of lamps
+in view (`seen_lamps`).
 """
 
 import numpy as np
@@ -18,9 +18,9 @@ Pixels = NDArray[np.float32]
 def judged(
     scene: Scene, settings: Settings, samples: int, radiance: Pixels, stderr: Pixels
 ) -> bool | None:
-    """Whether the error of a picture, (H, W, 3) each, of so many samples is not to be believed.
+    """Whether the error of a picture, (H, W, 3) each, with `samples` per pixel is doubtful.
 
-    None where that cannot be judged (`is_doubtful`).
+    None if that cannot be judged (`is_doubtful`).
     """
     observations = samples // settings.block
     if observations < LEAST_OBSERVATIONS:

@@ -1,9 +1,9 @@
-"""Light of lamps that the camera sees directly, in pixels that a lamp fills in part.
+"""The true light of lamps that the camera sees directly, in pixels that a lamp fills in part.
 
-What such a pixel shows hangs on how much of it the lamp covers: of a small sun, or at a rim, a few
-of its samples decide, and no statistics of the samples tell how lucky they were. The scene does: it
-says where the lamp stands. So the coverage is counted by rays of their own, against the shapes
-themselves, without the renderer.
+Such a pixel depends on how much of it the lamp covers. For a small sun, or at a rim, a few of its
+samples decide, and no statistics of the samples show how lucky they were. The scene does: it holds
+the place of the lamp. So the coverage is counted by separate rays, against the shapes themselves,
+without the renderer.
 """
 
 import math
@@ -27,22 +27,22 @@ Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 Indices = NDArray[np.intp]
 
-MOST_SHAPES = 256  # in a scene: with more, nothing is looked for
+MOST_SHAPES = 256  # in a scene: with more, no lamp is searched
 MOST_PIXELS = 256  # of a picture: those whose error is largest
 SMALL = 16  # pixels: a lamp that is not larger may have been met by no sample at all
-LARGE = 1 << 18  # pixels: of a lamp that is larger, no pixel of the rim carries the error
+LARGE = 1 << 18  # pixels: the rim of a larger lamp does not carry the error in single pixels
 STEPS = 24  # rays along each side of the part of a pixel that may show a lamp
 MORE_STEPS = 96  # where few of them meet it
-CLEAR = 4.0  # times as bright as a pixel, that a lamp beside it is
-ALIKE = 0.25  # of a lamp's light in a pixel, by which other light about it may differ
-UNLIKELY = 1e-6  # chance: a pixel that is brighter than what is known by less has other light
-LEAST_HITS = 40  # of a lamp by rays through a pixel: fewer do not tell its share
+CLEAR = 4.0  # times as bright as a pixel: a brighter neighbour may be a lamp
+ALIKE = 0.25  # of a lamp's light in a pixel: other light around it may differ by less
+UNLIKELY = 1e-6  # chance: if a pixel's brightness is less likely than that, it has other light
+LEAST_HITS = 40  # of a lamp by rays through a pixel: fewer do not determine its share
 SURE = 100  # hits: with more a pixel is known
 PLAIN = (Lambertian, Light)  # materials behind which no lamp is seen
 
 
 class Seen(NamedTuple):
-    """Pixels of a picture whose radiance is known, (n,) rows and columns, and that, (n, 3)."""
+    """Pixels of known true radiance: (n,) rows and columns, and the radiance, (n, 3)."""
 
     rows: Indices
     columns: Indices
@@ -50,7 +50,7 @@ class Seen(NamedTuple):
 
 
 class _Frame(NamedTuple):
-    """A camera as rays need it, all in scene units; `size` is that of the picture in pixels."""
+    """A camera in the form that rays need, in scene units; `size` is the picture's in pixels."""
 
     position: Array
     axes: Array  # right, up, forward: rows
@@ -61,19 +61,19 @@ class _Frame(NamedTuple):
 
 
 class _Box(NamedTuple):
-    """A part of the frame in pixels: (2,) each, x and y."""
+    """A rectangle of the frame in pixels: (2,) each, x and y."""
 
     low: Array
     high: Array
 
 
 def seen_lamps(scene: Scene, settings: Settings, radiance: Pixels, stderr: Pixels) -> Seen:
-    """The pixels that lamps fill in part and few samples lit, and what they show in truth.
+    """The pixels that lamps fill in part and few samples lit, with their true radiance.
 
-    `radiance` and `stderr`, (H, W, 3), are the picture that was rendered of the scene. Whatever
-    else a pixel shows is taken from the darkest of the nine about it; where these differ much
-    beside what the lamp brings, the pixel is left out. So are meshes, lamps with a cone, an image
-    or one side, and pixels where glass or a mirror may show a lamp too.
+    `radiance` and `stderr`, (H, W, 3), are the rendered picture of the scene. All other light of a
+    pixel is taken from the darkest of the nine pixels around it. The pixel is left out if these
+    differ much compared to the lamp's light. A scene with meshes has no such pixels. Lamps with a
+    cone, an image or one side are left out, and pixels where glass or a mirror may show a lamp too.
     """
     shapes = scene.visible
     nothing = Seen(np.zeros(0, np.intp), np.zeros(0, np.intp), np.zeros((0, 3)))
@@ -96,10 +96,10 @@ def seen_lamps(scene: Scene, settings: Settings, radiance: Pixels, stderr: Pixel
 def _next_to(
     rows: Indices, columns: Indices, light: Array, share: Array, radiance: Pixels, stderr: Pixels
 ) -> Seen:
-    """With what lamps leave of each pixel filled by what is darkest around it.
+    """Fill the rest of each pixel, which lamps leave, with the darkest light around it.
 
-    Nothing is known where that differs much beside what the lamps bring, and where the picture is
-    too bright for that to be luck: there is other light.
+    A pixel is left out if that light differs much compared to the lamps'. It also is if the picture
+    is too bright there for luck: then there is other light.
     """
     about = [_around(radiance, y, x) for y, x in zip(rows, columns, strict=True)]
     darkest, usual = (np.array(part) for part in zip(*about, strict=True))
@@ -111,11 +111,11 @@ def _next_to(
 
 
 def _log_chance(value: Array, error: Array, truth: Array) -> Array:
-    """Of a pixel to be as bright by luck; -inf without noise, 0 where it is not brighter.
+    """Logarithm of the chance that luck makes a pixel as bright; -inf without noise, 0 if darker.
 
-    As if h = (value / error)^2 equal samples had lit it, where l = h truth / value were expected:
-    that a Poisson number of mean l is h or more has a chance of exp(h - l) (l / h)^h at most
-    (Chernoff's bound).
+    As if h = (value / error)^2 equal samples had lit it, where l = h truth / value were expected. A
+    Poisson number of mean l is h or more with a chance of at most exp(h - l) (l / h)^h (Chernoff's
+    bound).
     """
     share = np.divide(truth, value, out=np.ones_like(value), where=value > truth)
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -125,7 +125,7 @@ def _log_chance(value: Array, error: Array, truth: Array) -> Array:
 
 
 def _around(radiance: Pixels, row: int, column: int) -> tuple[Array, Array]:
-    """The least of a pixel and those beside it, and the third of them, (3,) each."""
+    """The least of a pixel and its neighbours, and the third least of them, (3,) each."""
     about = radiance[max(row - 1, 0) : row + 2, max(column - 1, 0) : column + 2].reshape(-1, 3)
     ranks = np.sort(about.astype(np.float64), axis=0)
     return ranks[0], ranks[min(2, len(ranks) - 1)]
@@ -136,7 +136,7 @@ def _shines(scene: Scene, shape: Shape) -> bool:
 
 
 def _is_plain(scene: Scene, shape: Shape) -> bool:
-    """Whether a lamp looks alike from everywhere."""
+    """Whether a lamp looks the same from everywhere."""
     material = scene.materials[shape.material]
     is_even = isinstance(material, Light) and not material.cone and not material.textures
     return is_even and not shape.is_one_sided
@@ -162,7 +162,7 @@ def _unit(vector: Array) -> Array:
 
 
 def _box(frame: _Frame, shape: Shape) -> _Box | None:
-    """What holds a lamp in the picture, from everywhere on the lens; None beside the camera."""
+    """Part of the picture that a lamp may cover, for all of the lens; None at or behind the eye."""
     x, y, depth = frame.axes @ (np.array(shape.middle) - frame.position)
     nearest = depth - shape.reach
     if nearest <= 0:
@@ -175,14 +175,14 @@ def _box(frame: _Frame, shape: Shape) -> _Box | None:
 
 
 def _on_film(frame: _Frame, slopes: Array) -> Array:
-    """Pixels from the upper left corner, of slopes to the right and upwards."""
+    """Pixel coordinates from the upper left corner, for slopes to the right and upwards."""
     return (slopes / frame.tangents * [1, -1] + 1) / 2 * frame.size
 
 
 def _candidates(
     boxes: list[_Box], corner: Array, radiance: Pixels, stderr: Pixels
 ) -> list[tuple[int, int]]:
-    """Rows and columns of pixels that lamps may fill in part, at most MOST_PIXELS."""
+    """Rows and columns of pixels that lamps may fill in part; the MOST_PIXELS with most error."""
     floor = DARK * radiance.mean(dtype=np.float64) ** 2
     found: dict[tuple[int, int], float] = {}
     for box in boxes:
@@ -205,7 +205,7 @@ def _candidates(
 def _shown(
     scene: Scene, frame: _Frame, boxes: dict[int, _Box | None], corner: Array, row: int, column: int
 ) -> tuple[Array, float] | None:
-    """Mean light (3,) of lamps in a pixel, and their share of it; None where that is not known."""
+    """Mean light (3,) of lamps in a pixel, and their share of it; None if that is not known."""
     low = np.array([column, row]) + corner
     light, share = np.zeros(3), 0.0
     for number, box in boxes.items():
@@ -231,17 +231,17 @@ def _shown(
 
 
 def _is_clear(scene: Scene, shape: Shape, is_lamp: bool) -> bool:
-    """Whether what is seen there is known, or dark: a matte surface, or a plain lamp."""
+    """Whether a shape that rays meet is known or dark: a matte surface, or a plain lamp."""
     return (
         _is_plain(scene, shape) if is_lamp else isinstance(scene.materials[shape.material], PLAIN)
     )
 
 
 def _met(shapes: tuple[Shape, ...], frame: _Frame, start: Array, end: Array, steps: int) -> Indices:
-    """Numbers of the shapes that rays meet through a part of the frame; -1 for none."""
+    """Numbers of the shapes that rays through a part of the frame meet; -1 for none."""
     origin, direction = _rays(frame, start, end, steps)
     nearest, number = np.full(len(direction), math.inf), np.full(len(direction), -1)
-    with np.errstate(all="ignore"):  # a plane beside the ray is infinitely far
+    with np.errstate(all="ignore"):  # a plane parallel to the ray is infinitely far
         for index, shape in enumerate(shapes):
             distance = type(shape).distances(np.array([shape.row]), origin, direction)
             is_nearer = distance < nearest

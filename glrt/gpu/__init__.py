@@ -1,9 +1,9 @@
-"""OpenGL alone: it knows no scene.
+"""OpenGL contexts, shaders and buffers, without knowledge of scenes.
 
 Modules, each importing only what stands above it:
 
 - osmesa: Mesa's software renderer in plain memory
-- xlib: X servers that go away
+- xlib: survives the loss of an X server
 - context_turns: contexts that take turns in one thread
 - structs: GLSL structs read as numpy dtypes
 - glsl: shader files put together into what the driver gets
@@ -11,8 +11,8 @@ Modules, each importing only what stands above it:
 - programs: compiled programs that users of a context share
 - context: routes to an OpenGL context: EGL, OSMesa, a hidden window
 - struct_arrays: how a kernel reads an array: constants, uniform block or texture
-- canvas: a texture that is drawn on
+- canvas: textures that are drawn on
 - shared_resources: buffers and textures with several users
 - evaluate: single GLSL functions over arrays
-- driver_checks: what the driver really does: loop limit, rounding, `precise`
+- driver_checks: measured behaviour of the driver: loop limit, rounding, `precise`
 """

@@ -1,7 +1,7 @@
 """OpenGL contexts without a window: EGL, OSMesa, moderngl's own hidden window.
 
-EGL needs no display server. OSMesa is software, drawn into plain memory.
-The hidden window is what Windows, macOS and an X server offer.
+EGL needs no display server. OSMesa is software, drawn into plain memory. Windows, macOS and an X
+server offer the hidden window.
 """
 
 import ctypes
@@ -26,8 +26,8 @@ from glrt.gpu.programs import Programs
 Choice = Literal["auto", "egl", "osmesa", "window"]
 Pipeline = Literal["auto", "compute", "fragment"]
 ROUTES = ("egl", "window", "osmesa")  # in this order: the last is never hardware
-MOST_DEVICES = 16  # of EGL that are looked at
-MOST_FLAGS = 16  # of errors that are looked at: a lost context may raise one for ever
+MOST_DEVICES = 16  # devices of EGL that are tried
+MOST_FLAGS = 16  # error flags that are read: a lost context may raise one forever
 COMPUTE, FRAGMENT = 430, 410  # the versions of OpenGL that the two pipelines need
 _RESETS = {  # values of glGetGraphicsResetStatus: whose fault it was
     0x8253: "over this render",
@@ -43,39 +43,39 @@ ADVICE = (
 
 @dataclass(frozen=True)
 class Context:
-    """An open context: moderngl's, the route it came by, and what draws behind it."""
+    """An open OpenGL context, and the route and device by which it was opened."""
 
     gl: moderngl.Context
     route: str
-    device: int = 0  # of those that the route offers
+    device: int = 0  # its number among the devices of the route
 
     @property
     def renderer(self) -> str:
-        """The driver's name of the renderer."""
+        """Name of the renderer, as the driver gives it."""
         return str(self.gl.info["GL_RENDERER"])
 
     @property
     def version(self) -> str:
-        """The driver's version of OpenGL."""
+        """Version of OpenGL, as the driver gives it."""
         return str(self.gl.info["GL_VERSION"])
 
     @property
     def has_compute(self) -> bool:
-        """Whether there are compute shaders and storage blocks."""
+        """Whether compute shaders and storage blocks are available."""
         return self.gl.version_code >= COMPUTE
 
     @property
     def is_software(self) -> bool:
-        """Whether the processor draws."""
+        """Whether a software driver draws, on the processor."""
         return any(word in self.renderer.lower() for word in _SOFTWARE)
 
     @cached_property
     def programs(self) -> Programs:
-        """The programs that its users share."""
+        """Compiled programs that the users of this context share."""
         return Programs()
 
     def finish(self) -> None:
-        """Wait until the driver has done all work. RenderError if it lost this context over it."""
+        """Wait until the driver has done all work; RenderError if it lost this context over it."""
         self.gl.finish()
         if (status := self._reset_status()) in _RESETS:
             raise RenderError(
@@ -85,12 +85,12 @@ class Context:
             )
 
     def checked(self, what: str) -> AbstractContextManager[None]:
-        """`checked` of this context."""
+        """Return the context manager `checked` for this context; `what` names the work inside."""
         return checked(self.gl, what)
 
     @cached_property
     def _reset_status(self) -> Callable[[], int]:
-        """glGetGraphicsResetStatus; where a driver does not have it, all is taken to be well."""
+        """The function glGetGraphicsResetStatus; one that returns 0 if the driver lacks it."""
         if self.gl.version_code < 450 and "GL_KHR_robustness" not in self.gl.extensions:
             return lambda: 0
         loader = self.gl.mglo._context  # moderngl has no method for it
@@ -100,7 +100,7 @@ class Context:
 
 @contextmanager
 def checked(gl: moderngl.Context, what: str) -> Iterator[None]:
-    """RenderError where the driver finds an error in what is done inside.
+    """Raise RenderError if the driver finds an error in what is done inside; `what` names it.
 
     Errors that others left in this context are dropped first.
     """
@@ -117,15 +117,15 @@ _SMALLER = "It may be out of memory, or at its limits: a smaller picture, or a -
 
 
 def _take_errors(gl: moderngl.Context) -> list[str]:
-    """The flags that are raised; a driver may keep some, and each look lowers one."""
+    """Read up to MOST_FLAGS raised flags; a driver may keep several, and each read lowers one."""
     flags = (gl.error for _ in range(MOST_FLAGS))
     return [*takewhile(lambda flag: flag != "GL_NO_ERROR", flags)]
 
 
 def open_context(choice: Choice = "auto", pipeline: Pipeline = "auto") -> Context:
-    """Open a route, or the best: hardware before software, else the first that works.
+    """Open a context by one route, or by the best: hardware before software, else the first.
 
-    It has OpenGL 4.3 at least if the pipeline is to be compute, else 4.1. Raises ContextError with
+    It has at least OpenGL 4.3 for the compute pipeline, else at least 4.1. Raises ContextError with
     the reason of every route that failed.
     """
     failures: list[str] = []
@@ -144,7 +144,7 @@ def open_context(choice: Choice = "auto", pipeline: Pipeline = "auto") -> Contex
 
 
 def open_device(route: str, device: int = 0) -> Context:
-    """Open one device of a route; ContextError says why it cannot be. Only EGL has several."""
+    """Open one device of a route; ContextError if that fails. Only EGL has several devices."""
     try:
         return Context(_create_newest(route, device, FRAGMENT), route, device)
     except Exception as error:  # as in _try_route
@@ -157,18 +157,18 @@ def _prefer(chosen: Context, other: Context | None) -> Context:
     return chosen
 
 
-# A process of its own: Xlib ends the process whose X server refuses a request or goes away.
+# Runs in a process of its own: Xlib ends a process if its X server refuses a request or goes away.
 _ASK_WINDOW = """
 from glrt.gpu.context import open_device
 print("software" if open_device("window").is_software else "hardware")
 """
-PATIENCE = 10.0  # seconds for a hidden window, where there is another context already
+PATIENCE = 10.0  # seconds to wait for a hidden window if another context works
 
 
 @cache
 def _window_is_hardware(display: str) -> bool:
-    """Whether a hidden window on this display opens, and draws by hardware."""
-    if not _has_display() or getattr(sys, "frozen", False):  # then sys.executable is no Python
+    """Return whether a hidden window on this display opens, and draws by hardware."""
+    if not _has_display() or getattr(sys, "frozen", False):  # sys.executable is no Python then
         return False
     command = [sys.executable, "-P", "-c", _ASK_WINDOW]
     paths = {"PYTHONPATH": os.pathsep.join(sys.path)}
@@ -194,9 +194,9 @@ def _display() -> str:
 
 
 def _try_route(route: str, failures: list[str], required: int = FRAGMENT) -> Iterator[Context]:
-    """Every context that a route offers, one at a time; EGL may offer several devices.
+    """Yield every context that a route offers, one at a time; EGL may offer several devices.
 
-    The first may fail, as a GPU that is closed to this user does, and a later one open.
+    The first may fail, such as a GPU that this user may not open, and a later one open.
     """
     has_opened = False
     for device in range(MOST_DEVICES if route == "egl" else 1):
@@ -204,7 +204,7 @@ def _try_route(route: str, failures: list[str], required: int = FRAGMENT) -> Ite
             gl = _create_newest(route, device, required)
         except Exception as error:  # each backend raises what it likes: it becomes the reason
             if has_opened:
-                return  # there are no more
+                return  # there are no more devices
             if device == 0:
                 failures.append(f"{route}: {error}")
             continue
@@ -213,7 +213,7 @@ def _try_route(route: str, failures: list[str], required: int = FRAGMENT) -> Ite
 
 
 def _create_newest(route: str, device: int, required: int) -> moderngl.Context:
-    """With compute shaders, else as new as is required."""
+    """Create a context with compute shaders, else one of the required version."""
     try:
         return _create(route, device, COMPUTE)
     except Exception:

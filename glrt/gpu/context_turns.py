@@ -1,7 +1,7 @@
 """Contexts of EGL, GLX and OSMesa that take turns in one thread.
 
-A thread has one current context. EGL refuses a context while GLX has one: the calls that follow
-would reach the wrong context. GLX answers the same with an X error, which ends the process. OSMesa
+A thread has one current context. EGL refuses a context while GLX has one: later calls would reach
+the wrong context. In the opposite case, GLX answers with an X error, which ends the process. OSMesa
 takes over, and EGL does not notice.
 """
 
@@ -18,7 +18,7 @@ _DRAW, _READ = 0x3059, 0x305A  # EGL_DRAW, EGL_READ
 
 
 class _Entered(local):
-    """The loaders of this thread that are entered, the current one last."""
+    """The loaders that this thread has entered, the current one last."""
 
     def __init__(self) -> None:
         self.loaders: list[Any] = []
@@ -28,17 +28,17 @@ _entered = _Entered()
 
 
 class TurnTaker:
-    """A loader of functions for moderngl, whose context is current only while it is entered.
+    """A function loader for moderngl whose context is current only while it is entered.
 
-    glcontext's loaders, and OSMesa, do not go back to the context of another interface.
+    By themselves, glcontext's loaders and OSMesa do not restore the context of another interface.
     """
 
     def __init__(self, create: Callable[[], Any]) -> None:
-        """`create` makes the loader within; its context is not current afterwards."""
+        """Make the inner loader by `create`; its context is not current afterwards."""
         back = leave()
         try:
             self._loader = create()
-            self._is_visible = _is_current()  # OSMesa's is not
+            self._is_visible = _is_current()  # false for OSMesa's context
             if _glx_context():
                 outlive(_glx().glXGetCurrentDisplay())
         finally:
@@ -47,7 +47,7 @@ class TurnTaker:
         self._backs: list[Callable[[], object]] = []
 
     def load_opengl_function(self, name: str) -> int:
-        """The address of an OpenGL function, 0 if there is none."""
+        """Return the address of an OpenGL function, 0 if there is none."""
         return int(self._loader.load_opengl_function(name))
 
     def __enter__(self) -> "TurnTaker":
@@ -62,7 +62,7 @@ class TurnTaker:
         return self
 
     def __exit__(self, *_: object) -> None:
-        """Make the context current that was before, if any."""
+        """Make the previous context current again, if there was one."""
         _entered.loaders.pop()
         leave()
         self._backs.pop()()
@@ -76,7 +76,7 @@ class TurnTaker:
 
 
 def leave() -> Callable[[], object]:
-    """Make no context of EGL or GLX current. Returns a function that makes the last one so again.
+    """Make no context of EGL or GLX current; return a function that restores the last one.
 
     The context may belong to another part of the program, such as a window around glrt.
     """
@@ -87,7 +87,7 @@ def leave() -> Callable[[], object]:
 
 
 def _is_current() -> bool:
-    """Whether EGL or GLX has a current context."""
+    """Return whether EGL or GLX has a current context."""
     return bool(_egl_context() or _glx_context())
 
 
@@ -129,7 +129,7 @@ def _glx() -> Any:
 
 @cache
 def _library(name: str, prefix: str, things: tuple[str, ...]) -> Any:
-    """A library whose functions of these names return pointers or numbers; None without them."""
+    """Load a library, and let functions of these names return pointers; None if it lacks them."""
     try:
         library = ctypes.CDLL(name)
         for thing in things:

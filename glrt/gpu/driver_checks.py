@@ -1,7 +1,7 @@
-"""What the driver really does: when it ends loops, how it rounds, whether it heeds `precise`.
+"""Measure the driver: when it ends loops, how it rounds, whether it heeds `precise`.
 
-OpenGL promises little of it and reports none. A renderer asks for the loop limit alone; `glrt
-doctor` prints everything.
+OpenGL promises little of this and reports none of it. A renderer measures the loop limit alone;
+`glrt doctor` prints everything.
 """
 
 from dataclasses import dataclass
@@ -15,28 +15,28 @@ from glrt.gpu.evaluate import Probe
 
 Array = np.ndarray[Any, Any]
 
-MOST_ROUNDS = 1 << 17  # counted in the test of loops; a driver that runs them all has no limit
-# Of llvmpipe in Mesa 22: beyond, all loops of a SIMD group just end. That in Mesa 25 has no limit.
+MOST_ROUNDS = 1 << 17  # rounds in the test of loops; a driver that runs them all has no limit
+# Limit of llvmpipe in Mesa 22, beyond which all loops of a SIMD group end. Mesa 25 has none.
 LLVMPIPE_ROUNDS = 65_535
 ROWS = 1 << 14  # inputs of the other tests
 
-_limits: dict[tuple[str, str], int] = {}  # by renderer and version: measured once a process
+_limits: dict[tuple[str, str], int] = {}  # by renderer and version, measured once in a process
 
 
 @dataclass(frozen=True)
 class SelfTest:
-    """What was found. Errors are the largest of ROWS inputs."""
+    """Results of the driver's tests. Errors are the largest over ROWS inputs."""
 
-    loop_limit: int  # rounds; MOST_ROUNDS: none was found
-    hashes_equal: bool  # the random numbers are those of Python's integers, to the last bit
+    loop_limit: int  # rounds; MOST_ROUNDS if no limit was found
+    hashes_equal: bool  # hashes equal those of Python's integers, to the last bit
     precise_kept: bool  # nothing `precise` is fused or reordered
-    fuses_without: bool  # what is not `precise` is
-    ulps: dict[str, float]  # of the result's own last place
-    trig_error: float  # of sin and cos over [0, 2 pi], in units of 2^-24
+    fuses_without: bool  # arithmetic that is not `precise` is fused or reordered
+    ulps: dict[str, float]  # errors by expression, in units of the result's last place
+    trig_error: float  # largest error of sin and cos over [0, 2 pi], in units of 2^-24
 
 
 def self_test(context: Context) -> SelfTest:
-    """Run every test; some compiles, a tenth of a second on a software driver."""
+    """Run every test; they compile several programs, 0.1 s on a software driver."""
     limit = measured_loop_limit(context)
     with context.gl as gl:
         return SelfTest(
@@ -50,9 +50,9 @@ def self_test(context: Context) -> SelfTest:
 
 
 def usable_rounds(context: Context) -> int | None:
-    """How many rounds of loops a dispatch may plan with, a twelfth below the limit; None: any.
+    """Return how many loop rounds a dispatch may plan, a twelfth below the limit; None: any number.
 
-    The limit is measured by a dispatch of one invocation. Without compute shaders, a software
+    One invocation measures the limit in a dispatch of its own. Without compute shaders, a software
     driver is taken for llvmpipe in Mesa 22.
     """
     if not context.has_compute:
@@ -66,10 +66,10 @@ def _with_reserve(limit: int) -> int:
 
 
 def measured_loop_limit(context: Context) -> int:
-    """After how many rounds the driver ends the loops of an invocation; MOST_ROUNDS if never.
+    """Return after how many rounds the driver ends an invocation's loops; MOST_ROUNDS if never.
 
-    The rounds of all loops add up, nested ones too, and the last look at each loop's condition is
-    a round; llvmpipe in Mesa 22 counts those in which any lane of a SIMD group takes part.
+    The rounds of all loops add up, including nested ones, and the last look at a loop's condition
+    is a round. llvmpipe in Mesa 22 counts rounds in which any lane of a SIMD group takes part.
     """
     key = context.renderer, context.version
     if key not in _limits:
@@ -79,7 +79,7 @@ def measured_loop_limit(context: Context) -> int:
 
 
 def _count_rounds(gl: moderngl.Context) -> int:
-    """The end of the loop depends on data, so that no compiler can know it."""
+    """Run a loop whose end depends on data, so that no compiler can know it; return its rounds."""
     count = Probe(
         "count",
         "uint",
@@ -97,7 +97,7 @@ def _hashes_equal(gl: moderngl.Context) -> bool:
 
 
 def pcg_hash(x: int) -> int:
-    """`pcg_hash` of rng.glsl in whole numbers of any size, modulo 2^32."""
+    """Compute `pcg_hash` of sampling/hash.glsl in Python's integers, modulo 2^32."""
     state = (x * 747796405 + 2891336453) % 2**32
     word = ((state >> ((state >> 28) + 4)) ^ state) * 277803737 % 2**32
     return (word >> 22) ^ word
@@ -115,7 +115,7 @@ vec2 lost_digits(float a, float b) {{
 
 
 def _rounding_changes(gl: moderngl.Context, qualifier: str) -> bool:
-    """Whether the driver rearranges Knuth's sum, or computes a * b - a * b as anything but 0."""
+    """Return whether the driver rearranges Knuth's sum, or computes a * b - a * b as not 0."""
     a, b = _numbers(-20, 20)[: ROWS // 2], _numbers(-20, 20)[ROWS // 2 :]
     # One line: the loader adds `precise` where a line begins with a declaration.
     text = " ".join(_ROUNDING.format(precise=qualifier).split())
@@ -127,7 +127,7 @@ def _rounding_changes(gl: moderngl.Context, qualifier: str) -> bool:
 
 
 def _ulps(gl: moderngl.Context) -> dict[str, float]:
-    """The functions that path code and the display use, over the ranges that they use."""
+    """Return the errors, in ulps, of functions that kernels use, over the ranges that they use."""
     x, y = _numbers(-40, 40), _numbers(-40, 40)[::-1].copy()
     unit = _numbers(-12, 0)
     exact = {
@@ -154,7 +154,7 @@ def _trig_error(gl: moderngl.Context) -> float:
 
 
 def _numbers(low: int, high: int) -> Array:
-    """Floats spread over the binary exponents from `low` to `high`."""
+    """Return ROWS floats, spread over the binary exponents from `low` to `high`."""
     random = np.random.default_rng(1)
     values: Array = np.exp2(random.uniform(low, high, ROWS)).astype(np.float32)
     return values

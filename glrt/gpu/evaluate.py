@@ -1,4 +1,4 @@
-"""Shader expressions over arrays: how tests, self-test and experiments look at single functions."""
+"""Evaluate shader expressions over arrays, for tests, the self-test and experiments."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -20,11 +20,11 @@ _GROUP = 64
 
 @dataclass(frozen=True)
 class Probe:
-    """An expression, computed once for each row of its inputs.
+    """A GLSL expression that is computed once for each row of its inputs.
 
     `returns` is the GLSL type of the result ("float", "vec3", "uint", "bool"). `setup` are
     statements that stand before the expression, `functions` go in front of main. `includes` are
-    shader files; `constants` their prelude.
+    shader files, `constants` their prelude.
     """
 
     expression: str
@@ -33,7 +33,7 @@ class Probe:
     functions: str = ""
     includes: Sequence[str] = ()
     constants: Mapping[str, bool | int] | None = None
-    texts: Mapping[str, str] | None = None  # shader files that are written, by name
+    texts: Mapping[str, str] | None = None  # texts in place of shader files, by name
 
     def run(
         self,
@@ -41,11 +41,11 @@ class Probe:
         inputs: Mapping[str, Any] | None = None,
         blocks: Mapping[str, Resource] | None = None,
     ) -> Array:
-        """The result for each row, (n,) or (n, 2..4); of n rows that the longest input has.
+        """Return the result for each row, (n,) or (n, 2..4); n is the length of the longest input.
 
         Inputs are arrays of floats, ints or uints, or (n, 2..4) vectors, named as in the
-        expression; one of length 1 holds for all rows. `blocks` are those, and the textures,
-        that included files or functions declare. The context must be current.
+        expression; one of length 1 holds for all rows. `blocks` are the blocks and textures that
+        included files or functions declare. The context must be current.
         """
         arrays = {name: _plain(values) for name, values in (inputs or {}).items()}
         count = max((len(values) for values in arrays.values()), default=1)
@@ -63,7 +63,7 @@ class Probe:
         return out.astype(bool) if base == "bool" else out
 
     def _needed(self) -> list[str]:
-        """The files to include: compiling the others would take most of the time."""
+        """Return the files to include; compiling all of them would take most of the time."""
         text = " ".join([self.returns, self.setup, self.expression, self.functions])
         if "#include" in text:
             return list(self.includes)
@@ -96,15 +96,15 @@ class Probe:
 
 _WORD = re.compile(r"[A-Za-z_]\w*")
 _DECLARED = re.compile(r"^struct (\w+)|^(?:\w+ )+(\w+)(?=\(|\[| =|;)", re.MULTILINE)
-# Directives and blocks: what they declare is not read here.
+# Directives and blocks; the names that they declare are not read here.
 _ALWAYS = re.compile(r"^(?:#|layout|uniform|buffer)", re.MULTILINE)
 
 
 def needed_files(text: str, files: Mapping[str, str]) -> list[str]:
-    """The names of those files of GLSL that declare a word of a text, or of a file that does.
+    """Return the names of GLSL files that declare a word of a text, or of a file that does.
 
-    `files` are texts in an order in which each builds on those before it alone. Those with
-    directives or blocks are needed in any case.
+    `files` are texts in an order in which each builds on earlier ones alone. Files with directives
+    or blocks are always needed.
     """
     words = set(_WORD.findall(text))
     found = []
@@ -117,12 +117,12 @@ def needed_files(text: str, files: Mapping[str, str]) -> list[str]:
     return found[::-1]
 
 
-_SHAPES = "shapes/all_shapes.glsl"  # a part of the table of contents
-_NO_RECORD = "integrators/no_record.glsl"  # which entry files put in front of it
+_SHAPES = "shapes/all_shapes.glsl"  # includes, as trace.glsl does
+_NO_RECORD = "integrators/no_record.glsl"  # entry files include it before trace.glsl
 
 
 def path_files() -> list[str]:
-    """The shader files that trace a path, in the order in which they build on each other."""
+    """Return the shader files that trace a path, in the order in which they build on each other."""
     text = read("trace.glsl").replace(f'#include "{_SHAPES}"', read(_SHAPES))
     return [_NO_RECORD, *re.findall(r'#include "([\w/]+\.glsl)"', text)]
 
@@ -135,14 +135,14 @@ def _plain(values: Any) -> Array:
 
 
 def _base(glsl_type: str) -> tuple[str, int]:
-    """The scalar type and the number of components: ("float", 3) of "vec3"."""
+    """Return the scalar type and the number of components: ("float", 3) for "vec3"."""
     if match := re.fullmatch(r"([iu]?)vec([234])", glsl_type):
         return {"": "float", "i": "int", "u": "uint"}[match[1]], int(match[2])
     return glsl_type, 1
 
 
 def _precise(kind: str) -> str:
-    """The qualifier of a local: integers and truths have no rounding."""
+    """Return the qualifier of a local variable; integers and booleans are not rounded."""
     return "precise " if kind == "float" or kind[:3] in ("vec", "mat") else ""
 
 

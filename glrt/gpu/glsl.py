@@ -1,8 +1,7 @@
-"""Shader text: files and what they include, behind a prelude of constants.
+"""Assemble shader text: a prelude of constants, and a file with all that it includes.
 
-This is the one way in which a shader comes together; docs/explanation/kernel.md explains it. A file
-is read once: what is rendered does not change while somebody edits a shader. `files_anew` is for
-those who ask for that.
+All shaders are assembled here; docs/explanation/kernel.md explains how. A file is read once, so
+that a render does not change while somebody edits a shader. `files_reread` reads files again.
 """
 
 import re
@@ -19,9 +18,9 @@ from glrt.core.resources import folder
 _INCLUDE = re.compile(r'\s*#include\s+"([^"]+)"')
 # Mesa, AMD, Apple: "0:17(4): error"; NVIDIA: "0(17) : error"; glslang: "ERROR: 0:17:".
 _LOCATION = re.compile(r"\b0[:(](\d+)(?:\(\d+\)|\))?(?: ?:)?")
-_texts: dict[Path, str] = {}  # of files that have been read
+_texts: dict[Path, str] = {}  # texts of files that have been read
 _editions = count(1)
-_edition = [0]  # the one that is read
+_edition = [0]  # number of the edition that is read
 
 
 class Line(NamedTuple):
@@ -44,9 +43,10 @@ class Source:
         version: str = "430 core",
         texts: Mapping[str, str] | None = None,
     ) -> None:
-        """Of `entry` and what it includes: from `texts`, by name, or from the shader folder.
+        """Take `entry` and what it includes from `texts`, by name, or from the shader folder.
 
-        Files are read when the text is first needed. Sources of one `key` have one text.
+        Files are read when the text is first needed. Sources with the same `key` have the same
+        text.
         """
         head = [f"#version {version}", *map(_declare, (constants or {}).items())]
         self._head, self._entry, self._texts = head, entry, texts or {}
@@ -54,7 +54,7 @@ class Source:
 
     @cached_property
     def lines(self) -> list[Line]:
-        """The lines, each with its origin. RenderError if a file is not there."""
+        """The lines, each with its origin; RenderError if a file is missing."""
         lines = [Line(line, "prelude") for line in self._head]
         for line in _Files(self._texts).expand(self._entry, "the kernel"):
             if _file(line.origin) != _file(lines[-1].origin):
@@ -64,11 +64,11 @@ class Source:
 
     @property
     def text(self) -> str:
-        """What the driver compiles."""
+        """The text that the driver compiles."""
         return "\n".join(line.text for line in self.lines) + "\n"
 
     def explain(self, log: str) -> str:
-        """A driver's message with `file:line` in place of positions in the assembled text."""
+        """Return a driver's message with `file:line` for positions in the assembled text."""
         return _LOCATION.sub(lambda match: self._origin(int(match[1])), log)
 
     def _origin(self, number: int) -> str:
@@ -77,23 +77,23 @@ class Source:
 
 
 def read(name: str) -> str:
-    """The text of one shader file."""
+    """Return the text of one shader file."""
     return _text_of(folder("shaders_glsl") / name)
 
 
 def expanded(name: str) -> str:
-    """The text of a shader file with those that it includes."""
+    """Return the text of a shader file, with all files that it includes."""
     return "\n".join(line.text for line in _Files({}).expand(name, name)) + "\n"
 
 
 def shader_files() -> list[Path]:
-    """Every shader file, sorted."""
+    """Return every shader file, sorted."""
     return sorted(path for path in folder("shaders_glsl").rglob("*") if path.is_file())
 
 
 @contextmanager
 def files_reread() -> Iterator[None]:
-    """Inside, files are read as they are now; should an error leave it, the texts before stay."""
+    """Read files as they are now within the block; after an error, restore the earlier texts."""
     before, edition = dict(_texts), _edition[0]
     _texts.clear()
     _edition[0] = next(_editions)
@@ -131,7 +131,7 @@ class _Files:
         self._seen: set[str] = set()
 
     def expand(self, name: str, wanted_by: str) -> list[Line]:
-        """The lines of a file with those of the files it includes, where they are first named."""
+        """Return the lines of a file, with included files where they are first named."""
         if name in self._seen:
             return []
         self._seen.add(name)

@@ -14,7 +14,7 @@ _UNSIGNED_BYTE = 0x1401
 
 
 class OSMesa:
-    """The loader that moderngl asks for: OSMesa through ctypes."""
+    """An OSMesa context through ctypes, as a loader for moderngl."""
 
     def __init__(self, minor: int = 5) -> None:
         """Open a core context of OpenGL 4.`minor`; 4.5 is the newest that OSMesa has."""
@@ -29,7 +29,7 @@ class OSMesa:
         self.__enter__()
 
     def load_opengl_function(self, name: str) -> int:
-        """The address of an OpenGL function, 0 if there is none."""
+        """Return the address of an OpenGL function, 0 if there is none."""
         find = self._library.OSMesaGetProcAddress
         find.restype, find.argtypes = ctypes.c_void_p, [ctypes.c_char_p]
         return find(name.encode()) or 0

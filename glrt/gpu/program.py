@@ -1,4 +1,4 @@
-"""One compiled program, its blocks and images bound by name; the only dispatcher."""
+"""Compiled programs with blocks and images bound by name; they alone dispatch work."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ Images = Mapping[str, moderngl.Texture]
 
 
 def tile_count(width: int, height: int) -> int:
-    """How many tiles cover a picture."""
+    """Return how many tiles cover a picture."""
     return -(-width // TILE) * -(-height // TILE)
 
 
@@ -27,13 +27,13 @@ def tile_count(width: int, height: int) -> int:
 class Pace:
     """The speed of a program's dispatches so far; work is samples x tiles."""
 
-    tried: float = 0.0  # the most work of a dispatch
+    tried: float = 0.0  # the most work of one dispatch
     cost: float = 0.0  # seconds for one tile and sample
-    cost_alone: float = 0.0  # of frames of one sample, whose lanes wait for the longest path
-    rounds: int = 0  # of loops for a sample: with more, the rest is worth nothing
+    cost_alone: float = 0.0  # the same for one sample alone, whose lanes wait for the longest path
+    rounds: int = 0  # loop rounds of a sample; with more, the rest is no longer valid
 
     def learn(self, other: "Pace") -> None:
-        """Begin with what is known of a program that does the same."""
+        """Take over the speed of a program that does the same, unless this one has dispatched."""
         if not self.tried:
             self.tried, self.cost, self.cost_alone = other.tried, other.cost, other.cost_alone
             self.rounds = other.rounds
@@ -46,7 +46,7 @@ class Kernel:
         """Compile; RenderError gives the driver's message by shader file and line."""
         self._gl, self.pace = gl, Pace()
         try:
-            with postponed():  # it names a program's parts in Python: Ctrl-C there crashes it
+            with postponed():  # moderngl names a program's parts in Python: Ctrl-C there crashes it
                 self._program = gl.compute_shader(source.text)
         except moderngl.Error as error:
             raise _refusal(source, error) from error
@@ -59,7 +59,7 @@ class Kernel:
     def bind(self, scene: Mapping[str, Resource], images: Images) -> None:
         """Give each block and image of the program the buffer or texture of its name.
 
-        Those that the compiler dropped need none; a missing one is a KeyError with its name.
+        Names that the compiler dropped need none; a missing one is a KeyError with its name.
         """
         _bind_blocks(self._program, scene)
         _bind_textures(self._program, scene)
@@ -69,16 +69,16 @@ class Kernel:
                 images[name].bind_to_image(unit)
 
     def run(self, width: int, height: int) -> None:
-        """Dispatch over a grid of pixels."""
+        """Dispatch over a picture of this size in pixels."""
         self.run_tiles(tile_count(width, height))
 
     def run_tiles(self, tiles: int) -> None:
-        """Dispatch work groups, whatever they stand for; what follows sees what they wrote."""
+        """Dispatch so many work groups; later commands see what they wrote."""
         self._program.run(tiles, 1, 1)
         self._gl.memory_barrier()
 
     def rest(self) -> None:
-        """Hold nothing of what was bound."""
+        """Release what was bound: a compute shader holds nothing."""
 
     def release(self) -> None:
         """Free the program."""
@@ -96,7 +96,7 @@ class FragmentKernel:
         self._quad = gl.vertex_array(self._program, [])
 
     def bind(self, scene: Mapping[str, Resource], images: Images) -> None:
-        """As Kernel.bind; images whose names begin with "target" are drawn to, in their order."""
+        """Bind as Kernel.bind; images named "target..." are drawn to, in their order."""
         _bind_blocks(self._program, scene)
         _bind_textures(self._program, {**scene, **images})
         self.rest()
@@ -104,7 +104,7 @@ class FragmentKernel:
         self._targets = self._gl.framebuffer(color_attachments=targets)
 
     def run_tiles(self, tiles: int) -> None:
-        """Draw tiles; what a window has turned on, such as blending, does not touch them."""
+        """Draw tiles, untouched by what a window has turned on, such as blending."""
         with self._gl.scope(self._targets, moderngl.NOTHING):
             self._quad.render(moderngl.TRIANGLE_STRIP, vertices=4, instances=tiles)
 
@@ -115,14 +115,14 @@ class FragmentKernel:
         self._program.release()
 
     def rest(self) -> None:
-        """Hold nothing of what was bound."""
+        """Release the framebuffer of what was bound."""
         if self._targets:
             self._targets.release()
             self._targets = None
 
 
 def drawing(gl: moderngl.Context, vertex: Source, fragment: Source) -> moderngl.Program:
-    """A program that draws; RenderError tells the driver's message by shader file and line."""
+    """Return a program that draws; RenderError gives the driver's message by file and line."""
     try:
         with postponed():  # as in Kernel
             return gl.program(vertex_shader=vertex.text, fragment_shader=fragment.text)
@@ -133,7 +133,7 @@ def drawing(gl: moderngl.Context, vertex: Source, fragment: Source) -> moderngl.
 def _bind_blocks(
     program: moderngl.ComputeShader | moderngl.Program, scene: Mapping[str, Resource]
 ) -> None:
-    """Each kind counts from 0: OpenGL 4.3 grants no more than 8 places for storage blocks."""
+    """Bind the blocks; each kind counts from 0, as OpenGL 4.3 grants only 8 storage blocks."""
     slots = {moderngl.UniformBlock: count(), moderngl.StorageBlock: count()}
     for name in program:
         member = program[name]

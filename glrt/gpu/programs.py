@@ -7,12 +7,12 @@ from glrt.gpu.glsl import Source
 from glrt.gpu.program import FragmentKernel, Kernel
 
 AnyKernel = Kernel | FragmentKernel
-IDLE = 8  # programs that are kept though nobody uses them
+IDLE = 8  # unused programs that are kept
 
 
 @dataclass
 class _Held:
-    """A program, and how many users it has."""
+    """A program, and the number of its users."""
 
     kernel: AnyKernel
     users: int = 0
@@ -22,11 +22,11 @@ class Programs:
     """A cache of compiled programs: unused ones are freed, the least recently used first."""
 
     def __init__(self) -> None:
-        """Empty."""
+        """Create an empty cache."""
         self._held: dict[tuple[object, ...], _Held] = {}  # most recently used last
 
     def take(self, shaders: Sequence[Source], compiled: Callable[[], AnyKernel]) -> AnyKernel:
-        """The program of these shaders; `compiled` makes it where it is not there.
+        """Return the program of these shaders; `compiled` makes it if it is not in the cache.
 
         Each call needs a `give_back` when its user is done.
         """
@@ -38,7 +38,7 @@ class Programs:
         return held.kernel
 
     def give_back(self, kernel: AnyKernel) -> None:
-        """One user less. The program stays for a while."""
+        """Count one user less; the program stays in the cache for a while."""
         held = next(held for held in self._held.values() if held.kernel is kernel)
         held.users -= 1
         held.kernel.rest()

@@ -1,12 +1,13 @@
 """Arrays of structs, and how a kernel reads each: constants, a uniform block, or a texture.
 
-Written as GLSL for the arrays of one scene, in place of the include `scene_arrays.glsl`: the only
-shader text that is not a file. Constants are fastest, and each change of them compiles; uniform
-blocks are limited in size; what is larger lies in textures. Figures: docs/results/speed.md.
+The GLSL for the arrays of one scene stands in place of the include `scene_arrays.glsl`; it is the
+only shader text that is not a file. Constants are fastest, and each change of them compiles a
+kernel. Uniform blocks are limited in size; larger arrays lie in textures. Figures:
+docs/results/speed.md.
 
-Textures hold unsigned integers: one of floats may lose what looks like a denormal number. Texels
-are read at their middle, by coordinates from 0 to 1, and not by number: for numbers llvmpipe looks
-up the size of a level lane by lane, which takes longer than reading.
+Textures hold unsigned integers, since a texture of floats may lose numbers that look denormal.
+Texels are read at their middle, by coordinates from 0 to 1, and not by number: for numbers,
+llvmpipe looks up the size of a level lane by lane, which takes longer than the read.
 """
 
 from collections.abc import Collection, Mapping, Sequence
@@ -20,31 +21,31 @@ Array = np.ndarray[Any, Any]
 Arrays = Mapping[str, Array]  # rows, by the name of their struct
 
 FILE = "scene_arrays.glsl"
-MOST_UNIFORM_BYTES = 65_536  # llvmpipe's limit: quads 1.05 times as fast as in a texture
+MOST_UNIFORM_BYTES = 65_536  # llvmpipe's limit; quads are 1.05 times as fast as in a texture
 LEAST_ROWS = 32
-MOST_DOUBLED = 64  # rows of a texture that grows to powers of two: those of meshes take less
+MOST_DOUBLED = 64  # rows of a texture that grows to powers of two; beyond, in smaller steps
 
 _BITS = 9
-ROWS = 1 << _BITS  # structs along a texture: with 7 texels each within the 16,384 that 4.1 grants
-_TEXEL = 16  # bytes of RGBA32UI
+ROWS = 1 << _BITS  # structs along a texture: of 7 texels each, within the 16,384 that OpenGL grants
+_TEXEL = 16  # bytes of an RGBA32UI texel
 _CASTS = {"f": "uintBitsToFloat({})", "i": "int({})", "u": "{}"}
 
 
 def block_of(struct: str) -> str:
-    """The name of the uniform block or texture that holds the rows of a struct."""
+    """Return the name of the uniform block or texture that holds the rows of a struct."""
     return f"{struct}Rows"
 
 
 def scene_arrays(
     arrays: Arrays, numbered: Sequence[str], constant: Collection[str], uniform_bytes: int
 ) -> str:
-    """GLSL that declares the arrays and the functions by which the kernel reads them.
+    """Return GLSL that declares the arrays and the functions by which the kernel reads them.
 
-    For each struct `sphere_at(index)` and, where the struct Frame counts it, `sphere_count()`.
-    Structs that are `numbered` share one numbering, in this order: `first_sphere()` is the number
-    of the first, and `up_to_sphere(number)` is true for this kind and those before it. Those that
-    are `constant`, or have no rows, are written into the text. Uniform blocks are at most
-    `uniform_bytes` large.
+    Each struct has `sphere_at(index)` and, if the struct Frame counts it, `sphere_count()`. Structs
+    that are `numbered` share one numbering, in this order: `first_sphere()` is the number of the
+    first, and `up_to_sphere(number)` is true for this kind and earlier ones. Structs that are
+    `constant`, or have no rows, are written into the text. Uniform blocks have at most
+    `uniform_bytes` bytes.
     """
     parts = ["layout(std140) uniform FrameBlock { Frame frame; };"]
     for struct, rows in arrays.items():
@@ -60,19 +61,19 @@ def scene_arrays(
     return "\n".join([*parts, *_numbering(arrays, numbered)]) + "\n"
 
 
-# In no block: OpenGL 4.1 grants a kernel 12 of them, and the other structs take those.
+# Never in a uniform block: OpenGL 4.1 grants a kernel 12, which the other structs take.
 TEXTURED = (
     *("Mesh", "Corner", "Triangle", "Instance", "Tint"),
     *("Conductor", "Glass", "Gloss", "Albedo", "Emitter", "Aim", "Target", "Sides"),
     *("Map", "Maps", "Axes", "Uv", "Tangent"),
 )
-COUNTED = ("Node", "Slot", "Light")  # by the struct Frame, beside those that are numbered
+COUNTED = ("Node", "Slot", "Light")  # by the struct Frame, in addition to the numbered structs
 
 
 def upload(
     gl: moderngl.Context, arrays: Arrays, constant: Collection[str], uniform_bytes: int
 ) -> dict[str, moderngl.Buffer | moderngl.Texture]:
-    """The arrays as `scene_arrays` declares them, by the names of their blocks and textures."""
+    """Return buffers and textures of the arrays as `scene_arrays` declares them, by name."""
     return {
         block_of(struct): gl.buffer(uniform_content(rows))
         if is_uniform(struct, rows, uniform_bytes)
@@ -83,22 +84,22 @@ def upload(
 
 
 def uniform_bytes(gl: moderngl.Context) -> int:
-    """How large a uniform block may be."""
+    """Return how many bytes a uniform block may have."""
     return min(MOST_UNIFORM_BYTES, int(gl.info["GL_MAX_UNIFORM_BLOCK_SIZE"]))
 
 
 def is_uniform(struct: str, rows: Array, uniform_bytes: int) -> bool:
-    """Whether an array that is not constant lies in a uniform block."""
+    """Return whether an array that is not constant lies in a uniform block."""
     return struct not in TEXTURED and _capacity(rows) * rows.itemsize <= uniform_bytes
 
 
 def uniform_content(rows: Array) -> bytes:
-    """The content of a uniform block, as large as the block is declared."""
+    """Return the content of a uniform block, as large as the block is declared."""
     return rows.tobytes().ljust(_capacity(rows) * rows.itemsize, b"\0")
 
 
 def texture_of(gl: moderngl.Context, rows: Array) -> moderngl.Texture:
-    """The texture of an array."""
+    """Return the texture of an array."""
     size = ROWS * rows.itemsize // _TEXEL, _height(len(rows))
     texture = gl.texture(size, 4, dtype="u4")
     texture.filter = moderngl.NEAREST, moderngl.NEAREST  # integers are not interpolated
@@ -109,7 +110,7 @@ def texture_of(gl: moderngl.Context, rows: Array) -> moderngl.Texture:
 def write_rows(texture: moderngl.Texture, rows: Array, count: int) -> None:
     """Write the first `count` rows of an array, or some more, into its texture.
 
-    Without a copy of them, but for the last line: there may be a hundred million bytes.
+    Only the last line is copied before: there may be a hundred million bytes.
     """
     whole, rest = divmod(count, ROWS)
     width = ROWS * rows.itemsize // _TEXEL
@@ -145,7 +146,7 @@ def _getter(struct: str) -> str:
 
 
 def _nothing(struct: str, rows: Array) -> str:
-    """No array can be empty: what nothing reads is zero."""
+    """Return the function of an empty array, which GLSL does not have: it gives zeros."""
     zero = _constructor(struct, np.zeros(1, rows.dtype)[0])
     return f"{struct} {struct.lower()}_at(int index) {{ return {zero}; }}"
 
@@ -163,7 +164,10 @@ def _uniform(struct: str, rows: Array) -> str:
 
 
 def _texture(struct: str, rows: Array) -> str:
-    """Another count of rows is another text only where the texture is twice as high."""
+    """Return the GLSL of an array in a texture.
+
+    A change of the row count changes the text only where it changes the height of the texture.
+    """
     texels_each = rows.itemsize // _TEXEL
     block = block_of(struct)
     fetches = [
@@ -187,15 +191,18 @@ def _texture(struct: str, rows: Array) -> str:
 
 
 def _capacity(rows: Array) -> int:
-    """Rows of a uniform block: some to spare, so that adding a shape seldom compiles.
+    """Return the rows of a uniform block; some are spare, so that a new shape seldom compiles.
 
-    Not as many as there may be: with blocks of 64 KiB llvmpipe compiled for 4.5 s, not 0.6.
+    Blocks as large as allowed cost too much: with 64 KiB llvmpipe compiled for 4.5 s, not 0.6 s.
     """
     return max(LEAST_ROWS, 1 << (len(rows) - 1).bit_length())
 
 
 def _height(count: int) -> int:
-    """Of the texture for so many structs: a power of two, or of more an eighth of one."""
+    """Return the height of the texture for so many structs, in rows.
+
+    It is a power of two up to MOST_DOUBLED, then a multiple of an eighth of one.
+    """
     rows = -(-count // ROWS)
     step = max(1 << max((rows - 1).bit_length() - 1, 0) >> 2, 1) if rows > MOST_DOUBLED else 0
     return -(-rows // step) * step if step else 1 << max(rows - 1, 0).bit_length()
@@ -215,7 +222,7 @@ def _constructor(struct: str, row: Any) -> str:
 
 
 def _literal(value: Any) -> str:
-    """A scalar or vector in GLSL, to the last bit: the shortest decimal that rounds to it."""
+    """Return a scalar or vector in GLSL, exactly: the shortest decimal that rounds to it."""
     if np.ndim(value):
         prefix = {"f": "", "i": "i", "u": "u"}[value.dtype.kind]
         return f"{prefix}vec{len(value)}({', '.join(_literal(part) for part in value)})"

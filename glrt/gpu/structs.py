@@ -1,4 +1,4 @@
-"""GLSL structs -> numpy dtypes: one text of a layout, two readers.
+"""Read GLSL structs as numpy dtypes, so that shaders and Python share one text of a layout.
 
 Only structs whose std140 and std430 layouts agree are read: rows of four words, no arrays of
 scalars, no matrices. So one buffer serves as a uniform block and as a storage block.
@@ -42,7 +42,7 @@ def read_constants(glsl: str) -> dict[str, int]:
 
 
 def record(dtype: np.dtype[Any], values: Mapping[str, object]) -> np.ndarray[Any, Any]:
-    """One record, every field of it given by name; a missing or foreign name is a KeyError."""
+    """Return one record with every field given by name; KeyError for a missing or unknown name."""
     if unknown := values.keys() - set(dtype.names or ()):
         raise KeyError(f"no field {sorted(unknown)} in {dtype.names}")
     result = np.zeros(1, dtype)
@@ -83,7 +83,7 @@ def _field(struct: str, declaration: str, types: dict[str, _Type]) -> tuple[str,
 
 
 def _offsets(formats: list[np.dtype[Any]], alignments: list[int], whole: int) -> list[int]:
-    """Where each field starts, and last the size of the struct, a multiple of `whole`."""
+    """Return the start of each field and, last, the size of the struct, a multiple of `whole`."""
     offsets, end = [], 0
     for dtype, alignment in zip(formats, alignments, strict=True):
         offsets.append(_round_up(end, alignment))

@@ -1,4 +1,4 @@
-"""X servers that go away: Xlib would end the process, though a hidden window draws on without."""
+"""Survive the loss of an X server: Xlib would end the process, though a hidden window draws on."""
 
 import ctypes
 from functools import cache
@@ -6,13 +6,13 @@ from typing import Any
 
 _IO_HANDLER = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p)
 _EXIT_HANDLER = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p)
-_displays: set[int] = set()  # addresses of those that the process may outlive
+_displays: set[int] = set()  # addresses of displays that the process may outlive
 _before: list[Any] = []  # the handler that was set before, for all other displays
 _stay = _EXIT_HANDLER(lambda _display, _data: None)
 
 
 def outlive(display: int) -> None:
-    """Let the process go on where this display's server goes away; libX11 1.7 or newer."""
+    """Let the process go on if this display's server goes away; needs libX11 1.7 or newer."""
     library = _library()
     if library:
         _displays.add(display)
@@ -21,7 +21,7 @@ def outlive(display: int) -> None:
 
 @cache
 def _library() -> Any:
-    """Xlib with a handler for lost servers that leaves other displays to the handler before."""
+    """Load Xlib with a handler for lost servers; other displays keep the earlier handler."""
     try:
         library = ctypes.CDLL("libX11.so.6")
         _ = library.XSetIOErrorExitHandler

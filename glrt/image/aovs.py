@@ -1,9 +1,9 @@
-"""AOVs (arbitrary output variables): what the first surface behind each pixel is, and its paths.
+"""AOVs (arbitrary output variables) of a picture: properties of first surfaces, and of paths.
 
-Where nothing is met, albedo and normal are 0 and count; depth is infinite and position 0 where no
-sample meets anything, and samples that meet nothing do not count. `bounces` is how often the paths
-scatter before they end. In an EXR file an AOV is a layer
-of its name; its standard error and its counts stand in channels of their own.
+A sample that meets nothing counts with albedo and normal 0, but not for depth and position. Where
+no sample meets anything, depth is infinite and position 0. `bounces` is how often the paths scatter
+before they end. In an EXR file an AOV is a layer of its name; its standard error and its counts
+have channels of their own.
 """
 
 from collections.abc import Mapping
@@ -33,16 +33,16 @@ class AovImage:
     """One AOV of a picture, row 0 on top."""
 
     value: NDArray[Any]  # (H, W, 3) float32; depth, bounces (H, W); object (H, W) uint32
-    stderr: NDArray[np.float32] | None = None  # of the value, of its shape; None for object
+    stderr: NDArray[np.float32] | None = None  # standard error, of the same shape; None for object
     count: NDArray[np.uint32] | None = None  # (H, W): samples in the mean
-    observations: NDArray[np.uint32] | None = None  # (H, W): as of the radiance
+    observations: NDArray[np.uint32] | None = None  # (H, W): complete ones, as of the radiance
 
 
 AovImages = Mapping[Aov, AovImage]
 
 
 def to_channels(aovs: AovImages) -> dict[str, NDArray[Any]]:
-    """Channels of an EXR file, (H, W) each, which `from_channels` reads back."""
+    """The AOVs as channels of an EXR file, (H, W) each, which `from_channels` reads back."""
     channels: dict[str, NDArray[Any]] = {}
     for name, aov in aovs.items():
         channels |= _planes(name, CHANNELS[name], aov.value)
@@ -54,7 +54,7 @@ def to_channels(aovs: AovImages) -> dict[str, NDArray[Any]]:
 
 
 def from_channels(channels: Mapping[str, NDArray[Any]], aovs: tuple[Aov, ...]) -> AovImages:
-    """The AOVs among channels, (H, W) each; those that are not whole are left out."""
+    """The AOVs among channels, (H, W) each; incomplete AOVs are left out."""
     found = {}
     for name in aovs:
         value = _stacked(channels, name, CHANNELS[name])

@@ -1,4 +1,4 @@
-"""A denoised picture and its error, in channels of a file beside the plain radiance."""
+"""A denoised picture and its error, in channels of a file next to the plain radiance."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -13,19 +13,19 @@ FIGURES = ("denoised_error", "denoised_error_high")  # attributes
 
 
 def to_channels(denoised: Denoised) -> dict[str, NDArray[Any]]:
-    """Channels of an EXR file, (H, W, 3) each, which `from_channels` reads back."""
+    """The picture as channels of an EXR file, (H, W, 3) each, which `from_channels` reads back."""
     return {RADIANCE: denoised.radiance, ERROR: denoised.error_map}
 
 
 def to_attributes(denoised: Denoised) -> dict[str, float]:
-    """The error of the whole picture, for the header of the file."""
+    """The error of the whole picture, as attributes for the header of the file."""
     return dict(zip(FIGURES, (denoised.error, denoised.error_high), strict=True))
 
 
 def from_channels(
     header: Mapping[str, Any], channels: Mapping[str, NDArray[Any]], size: tuple[int, ...]
 ) -> Denoised | None:
-    """What `to_channels` and `to_attributes` were given; None where it is not whole."""
+    """Read what `to_channels` and `to_attributes` have written; None if any of it is missing."""
     errors = [header.get(name) for name in FIGURES]
     known = [error for error in errors if isinstance(error, float) and np.isfinite(error)]
     if len(known) < len(FIGURES):

@@ -1,4 +1,4 @@
-"""What differs between the recipes of two pictures, in words."""
+"""Differences of the recipes of two pictures, in words."""
 
 from collections.abc import Iterator
 from typing import Any, NamedTuple
@@ -8,7 +8,7 @@ from glrt.scene.scenefile.toml import scene_to_dict
 
 
 class Pair(NamedTuple):
-    """Two recipes, and where messages say that their values stand."""
+    """Two recipes, and how messages name the place of their values."""
 
     left: Recipe
     right: Recipe
@@ -16,13 +16,13 @@ class Pair(NamedTuple):
     in_right: str = "now"
 
     def report(self, name: str, before: Any, after: Any) -> Iterator[str]:
-        """One difference, if it is one."""
+        """Yield a sentence if two values differ."""
         if before != after:
             yield f"{name} is {_shown(before)} {self.in_left} and {_shown(after)} {self.in_right}"
 
 
 def differing_settings(pair: Pair, names: list[str]) -> Iterator[str]:
-    """Settings by name."""
+    """Yield a sentence for each of these settings that differs."""
     for name in names:
         yield from pair.report(
             name, getattr(pair.left.settings, name), getattr(pair.right.settings, name)
@@ -30,7 +30,7 @@ def differing_settings(pair: Pair, names: list[str]) -> Iterator[str]:
 
 
 def differing_scenes(pair: Pair) -> Iterator[str]:
-    """Scenes with their files, but for what changes no sample."""
+    """Yield differences of scenes and their files, except title and samples of the scene."""
     yield from _apart(pair, "", _content(pair.left), _content(pair.right))
     before, after = pair.left.assets, pair.right.assets
     for path in before.keys() & after.keys():
@@ -38,13 +38,13 @@ def differing_scenes(pair: Pair) -> Iterator[str]:
 
 
 def differing_fields(pair: Pair, names: tuple[str, ...]) -> Iterator[str]:
-    """Fields of the recipes by name."""
+    """Yield a sentence for each of these recipe fields that differs."""
     for name in names:
         yield from pair.report(name, getattr(pair.left, name), getattr(pair.right, name))
 
 
 def first_of(differences: list[str]) -> str:
-    """The first of some differences, and how many more there are."""
+    """The first of some differences, and the number of the others."""
     more = f" ({len(differences) - 1} more differ)" if len(differences) > 1 else ""
     return f"{differences[0]}{more}"
 
@@ -57,7 +57,7 @@ def _content(recipe: Recipe) -> dict[str, Any]:
 
 
 def _apart(pair: Pair, place: str, before: Any, after: Any) -> Iterator[str]:
-    """Where two values out of a scene differ."""
+    """Yield a sentence for each difference of two values at a place in a scene."""
     if isinstance(before, dict) and isinstance(after, dict):
         for key in dict.fromkeys([*before, *after]):
             where = f"{place}.{key}" if place else f"{key}"

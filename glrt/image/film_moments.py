@@ -1,4 +1,4 @@
-"""What a picture has gathered on each of its films, as moments."""
+"""Moments of each film of a picture: radiance, particles and AOVs."""
 
 from typing import Any
 
@@ -11,12 +11,12 @@ from glrt.image.image import Image
 from glrt.image.moments import Moments
 from glrt.image.particle_film import ParticleFilm, observations_of
 
-RADIANCE, PARTICLES = "radiance", "particles"  # films, beside those of AOVs
+RADIANCE, PARTICLES = "radiance", "particles"  # films, in addition to those of AOVs
 NOTHING = np.zeros((1, 1, 1))
 
 
 def moments_of(image: Image, film: str) -> Moments | None:
-    """Of one film: radiance, particles, or an AOV; None where the picture lacks its state."""
+    """Moments of one film: radiance, particles or an AOV; None if the picture lacks its state."""
     aovs = {str(aov): found for aov, found in image.aovs.items()}
     if film in aovs:
         return _of_aov(aovs[film])
@@ -29,7 +29,7 @@ def moments_of(image: Image, film: str) -> Moments | None:
 
 
 def _of_radiance(image: Image, state: FilmState) -> Moments:
-    begun, part = NOTHING, NOTHING  # of a film without an observation that has begun
+    begun, part = NOTHING, NOTHING  # for a film without an incomplete observation
     if state.begun.any():
         begun, part = _counts(state.begun), state.part.astype(np.float64)
     return Moments(
@@ -43,14 +43,14 @@ def _of_radiance(image: Image, state: FilmState) -> Moments:
 
 
 def _of_particles(film: ParticleFilm, observations: int) -> Moments:
-    """Of what particles bring: a sample is an observation."""
+    """Moments of the film of particles, on which each sample is an observation."""
     mean, variance = film.mean.astype(np.float64), film.variance.astype(np.float64)
     count = np.full((*mean.shape[:2], 1), observations, np.float64)
     return Moments(count, mean, count, variance, NOTHING, NOTHING)
 
 
 def _of_aov(aov: AovImage) -> Moments:
-    """Of an AOV that is an estimate: it holds whole observations."""
+    """Moments of an AOV with standard errors, which holds complete observations."""
     assert aov.stderr is not None
     assert aov.count is not None
     assert aov.observations is not None

@@ -1,8 +1,8 @@
-"""The state of a film beside its mean: a render continues from it to the same bits.
+"""The state of a film in addition to its mean: a render continues from it to the same bits.
 
-An EXR file tells mean and standard error. From these alone the variance comes back to a few units
-in the last place. Those units are kept in channels of their own, and what is rarer, only where it
-is there: dropped samples, and an observation that has begun.
+An EXR file holds mean and standard error. From these alone the variance follows to a few units in
+the last place. Channels of their own hold these units. Dropped samples and an incomplete
+observation are rarer, and have channels only where they occur.
 """
 
 from collections.abc import Mapping
@@ -19,24 +19,24 @@ DROPPED, MISSING, BEGUN = "film.dropped", "film.missing", "film.begun"
 
 
 class FilmState(NamedTuple):
-    """Of each pixel of a film; arrays (H, W) float32, or as noted."""
+    """The state of each pixel of a film; arrays (H, W) float32, or as noted."""
 
-    variance: Array  # (H, W, 3): of one observation
+    variance: Array  # (H, W, 3): variance of one observation
     dropped: Array  # samples that were not finite
-    observations: Array  # whole ones
-    part: Array  # (H, W, 3): mean of the finite samples of the observation that has begun
-    begun: Array  # how many those are
+    observations: Array  # complete ones
+    part: Array  # (H, W, 3): mean of the finite samples of the incomplete observation
+    begun: Array  # number of those samples
 
 
 def empty_state(height: int, width: int) -> FilmState:
-    """Zeros, which take no memory before they are written over."""
+    """A state of zeros, which takes no memory until it is written."""
     pixels, colors = (height, width), (height, width, 3)
     shapes = colors, pixels, pixels, colors, pixels
     return FilmState(*(np.zeros(shape, np.float32) for shape in shapes))
 
 
 def keep(film: FilmState, rows: slice, part: FilmState) -> None:
-    """Put some rows in their place; zeros are left, so that what is rare takes little memory."""
+    """Copy `part` to some rows; arrays of zeros are skipped, so that rare values take no memory."""
     for array, band in zip(film, part, strict=True):
         if band.any():
             array[rows] = band
@@ -47,10 +47,10 @@ def error_of_mean(
 ) -> Array:
     """Standard error of each pixel's mean, (H, W, 3) float32; NaN below two observations.
 
-    The mean M of k whole observations has the variance V = v / (k - 1), v being that of theirs
-    about M. A part P of one, a share a of the samples, has a variance of its own, for Sobol's
-    points are worth more together: (P - M)^2 - V is an estimate without bias. So that of the mean
-    (1 - a) M + a P is (1 - a)^2 V + a^2 ((P - M)^2 - V).
+    The mean M of k complete observations has the variance V = v / (k - 1), where v is their
+    variance about M. An incomplete observation P, a share a of the samples, has another variance,
+    since Sobol's points are worth more together: (P - M)^2 - V is an unbiased estimate of it. So
+    the mean (1 - a) M + a P has the variance (1 - a)^2 V + a^2 ((P - M)^2 - V).
     """
     count, a = observations[..., None], share[..., None]
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -61,9 +61,9 @@ def error_of_mean(
 
 
 def to_channels(film: FilmState, stderr: Array, samples: int, block: int) -> Channels:
-    """Channels that `from_channels` reads back; `block` are the samples of an observation.
+    """The state as channels for `from_channels`; `block` is the number of samples per observation.
 
-    Arrays (H, W, 3) and (H, W), in float32 and uint32.
+    Arrays are (H, W, 3) and (H, W), in float32 and uint32.
     """
     is_whole = samples % block == 0
     folded = np.empty(stderr.shape, np.int32)
@@ -80,9 +80,9 @@ def to_channels(film: FilmState, stderr: Array, samples: int, block: int) -> Cha
 def from_channels(
     channels: Mapping[str, NDArray[Any]], stderr: Array, samples: int, block: int
 ) -> FilmState | None:
-    """What `to_channels` was given; None where a channel is missing or has another size.
+    """Read what `to_channels` has written; None if a channel is missing or has another size.
 
-    `channels` are planes (H, W), as `film.variance.R` and `film.dropped`.
+    `channels` are planes (H, W), such as `film.variance.R` and `film.dropped`.
     """
     size, is_whole = stderr.shape[:2], samples % block == 0
     planes = {name: plane for name, plane in channels.items() if plane.shape == size}
@@ -102,10 +102,10 @@ def from_channels(
 
 
 def _variance(stderr: Array, observations: Array, is_whole: bool) -> Array:
-    """That of one observation, v = e^2 (k - 1), to the rounding of float32.
+    """Variance of one observation, v = e^2 (k - 1), to the rounding of float32.
 
-    In float32 step by step, so that it is the same on every machine. 0 where the error says no more
-    than something else too: with fewer than two observations, or a part of one.
+    It is computed in float32 step by step, so that it is the same on every machine. It is 0 where
+    the error does not determine it: with fewer than two observations, or with an incomplete one.
     """
     count = observations[..., None]
     with np.errstate(over="ignore", invalid="ignore"):

@@ -1,4 +1,4 @@
-"""The two halves of a picture: its first samples, and those that came after them."""
+"""Split a picture into its first samples and the rest of them."""
 
 from collections.abc import Iterator
 
@@ -15,11 +15,11 @@ Light = tuple[Pixels, Pixels]
 
 
 def halves_of(first: Image, whole: Image) -> tuple[Half, Half]:
-    """What the first samples of a render tell, and what the rest of them do.
+    """The first samples of a render and the rest of them, as two halves.
 
-    `first` is the picture of the same render when it had fewer samples, whole observations; both
-    hold the state of their films and the guides of a denoiser. The halves are independent where
-    samples are; they need not be of one size.
+    `first` is the picture of the same render when it had fewer samples, in complete observations.
+    Both pictures hold the state of their films and the guides of a denoiser. The halves are
+    independent where samples are; they need not have the same size.
     """
     share = first.samples / whole.samples
     guides = zip(*(_parts(guide, first, whole) for guide in GUIDES), strict=True)
@@ -31,9 +31,9 @@ def halves_of(first: Image, whole: Image) -> tuple[Half, Half]:
 
 
 def _light(first: Image, whole: Image) -> Iterator[Light]:
-    """Mean and variance of the first samples, and of the rest.
+    """Yield mean and variance of the first samples, then of the rest, (H, W, 3) each.
 
-    Those of the films add, as the films are independent.
+    The films are independent, so their means and their variances add.
     """
     films = [_of_film(RADIANCE, first, whole)]
     if whole.particles:
@@ -59,7 +59,7 @@ def _parts(film: str, first: Image, whole: Image) -> tuple[Moments, Moments]:
 
 
 def _mean_and_variance(film: Moments) -> Light:
-    """The latter is 0 where a pixel has too few observations, as where its samples were dropped."""
+    """Mean of a film, and the variance of that mean: 0 for a pixel with too few observations."""
     mean, observations = film.mean.astype(np.float32), film.observations[..., 0]
     part = np.broadcast_to(film.part, film.mean.shape)
     share = np.broadcast_to(film.begun / np.maximum(film.samples, 1), film.samples.shape)[..., 0]

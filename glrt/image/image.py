@@ -27,7 +27,7 @@ from glrt.settings import Aov, Settings, ToneMap
 Pixels = NDArray[np.float32]
 
 SUFFIXES = (".exr", ".png", ".npy")
-RECIPE_KEY = "glrt"  # of the EXR attribute and of the PNG chunk
+RECIPE_KEY = "glrt"  # name of the EXR attribute and of the PNG chunk
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,12 +35,11 @@ class Image:
     """Radiance in linear sRGB, (H, W, 3) float32, row 0 on top, with its standard error.
 
     `stderr`, of the same shape, is the standard error of each mean: all NaN for fewer than two
-    observations. `samples` a pixel were taken; 0 if the image is not glrt's: then it has no
-    recipe. `film_state` is what a render needs to continue from it, if that is known; `particles`
-    are the two films of which a picture with particles is the sum. `aovs` are those that the
-    settings asked for, by name. `denoising` is the picture filtered, if that was asked for. `sums`
-    are those of a film of layers, for a denoiser; files do not hold them. Raises ValueError for
-    arrays of another shape or type.
+    observations. `samples` were taken per pixel; an image of another program has 0 samples and no
+    recipe. `film_state` is what a render needs to continue, if it is known. `particles` are two
+    films whose sum is a picture with particles. `aovs` are the requested AOVs, by name. `denoising`
+    is the filtered picture, if it was requested. `sums` are the sums of a film with layers, for a
+    denoiser; files do not hold them. Raises ValueError for arrays of another shape or type.
     """
 
     radiance: Pixels
@@ -62,11 +61,11 @@ class Image:
 
     @property
     def error(self) -> float | None:
-        """Estimated relative RMS error, of the noise alone; None if it is unknown."""
+        """Estimated relative RMS error, from the noise alone; None if it is unknown."""
         return estimated_error(self.radiance, self.stderr)
 
     def denoised(self) -> Denoised:
-        """The picture filtered, with its error; UsageError where `denoise` did not ask for it."""
+        """The filtered picture with its error; UsageError if `denoise` did not ask for it."""
         if self.denoising is None:
             raise UsageError(
                 "this picture was not denoised: render it with denoise='auto', and as many samples "
@@ -76,23 +75,23 @@ class Image:
 
     @property
     def shown(self) -> Pixels:
-        """What PNG and NPY files hold: the radiance, denoised if that was asked for."""
+        """The pixels of PNG and NPY files: the radiance, denoised if that was requested."""
         return self.radiance if self.denoising is None else self.denoising.radiance
 
     @property
     def error_to_reach(self) -> float | None:
-        """What a wanted error is held against; None if it is unknown.
+        """The error that is compared with a wanted error; None if it is unknown.
 
-        The estimate; of a denoised picture, whose estimate is rough, what it is likely below.
+        It is the estimate; for a denoised picture, whose estimate is rough, its upper limit.
         """
         return self.error if self.denoising is None else self.denoising.error_high
 
     @property
     def error_doubtful(self) -> bool | None:
-        """Whether `error` is not to be believed: it may hang on a few pixels that few samples lit.
+        """Whether `error` is doubtful: it may depend on a few pixels that few samples lit.
 
-        None where that cannot be judged: with fewer than four observations, without a recipe, or
-        where the light was changed in the window.
+        None if that cannot be judged: with fewer than four observations, without a recipe, or if
+        the light was changed in the window.
         """
         if self.recipe is None or self.recipe.traced is not None:
             return None
@@ -100,7 +99,7 @@ class Image:
         return judged(recipe.scene, recipe.settings, self.samples, self.radiance, self.stderr)
 
     def with_aovs(self, names: tuple[Aov, ...]) -> "Image":
-        """The picture with these of its AOVs alone."""
+        """The picture with only these of its AOVs."""
         if not self.recipe or self.recipe.settings.aov == names:
             return self
         settings = self.recipe.settings.model_copy(update={"aov": names})
@@ -115,9 +114,9 @@ class Image:
     ) -> None:
         """Write an EXR, PNG or NPY file, by suffix.
 
-        `exposure` in EV and `tonemap` apply to PNG alone, by default those of the recipe. Raises
-        `UsageError` for another suffix, or an EXR name that is no UTF-8; `RenderError` if the file
-        cannot be written: an existing one is then unchanged.
+        `exposure` in EV and `tonemap` apply to PNG alone; by default they are those of the recipe.
+        Raises `UsageError` for another suffix, or for an EXR name that is not UTF-8. Raises
+        `RenderError` if the file cannot be written; an existing file is then unchanged.
         """
         writers: dict[str, Callable[[Path], None]] = {
             ".exr": self._write_exr,
@@ -130,8 +129,8 @@ class Image:
     def load(cls, path: str | Path) -> "Image":
         """Read an EXR file of glrt, or of another program with channels R, G and B.
 
-        The latter has no recipe, 0 samples, and NaN for `stderr`. Raises `UsageError` if there is
-        no such image, `SceneError` for a damaged recipe.
+        An image of another program has no recipe, 0 samples, and NaN for `stderr`. Raises
+        `UsageError` if there is no such image, `SceneError` for a damaged recipe.
         """
         header, channels = read_exr(Path(path))
         radiance = _stacked(channels, "")
@@ -168,7 +167,7 @@ class Image:
         if self.denoising:
             channels |= denoised_channels.to_channels(self.denoising)
             header |= denoised_channels.to_attributes(self.denoising)
-        # OpenEXR scrambles arrays that are not contiguous, without a word.
+        # OpenEXR scrambles arrays that are not contiguous, without an error.
         contiguous = {name: np.ascontiguousarray(pixels) for name, pixels in channels.items()}
         OpenEXR.File(header, contiguous).write(exr_name(path))
 
@@ -198,7 +197,7 @@ class Image:
 
 
 def read_recipe(path: str | Path) -> Recipe:
-    """The recipe of an EXR or PNG file, without its pixels.
+    """Read the recipe of an EXR or PNG file, without its pixels.
 
     Raises `UsageError` if there is none, `SceneError` if it is damaged.
     """
@@ -223,7 +222,7 @@ def check_writable(path: str | Path) -> None:
 
 
 def _suffix_to_write(path: Path) -> str:
-    """Raises UsageError for another suffix, and for a name that OpenEXR does not take."""
+    """The suffix of a path; UsageError for an unknown one, or for a name that OpenEXR refuses."""
     suffix = path.suffix.lower()
     if suffix not in SUFFIXES:
         raise UsageError(

@@ -1,7 +1,7 @@
-"""Layers of light under weights, summed over each of two halves of the observations.
+"""Weighted layers of light, summed over each of two halves of the observations.
 
-Layers are correlated, so that a film of layers knows the error of a weighted sum from these two
-alone: roughly, with one degree of freedom, but without bias.
+Layers are correlated, so these two halves alone determine the error of a weighted sum: roughly,
+with one degree of freedom, but without bias.
 """
 
 from typing import NamedTuple
@@ -14,27 +14,27 @@ Floats = NDArray[np.float64]
 
 
 class LayerSums(NamedTuple):
-    """What each half of the observations tells of every pixel."""
+    """Mean and number of samples of every pixel, for each half of the observations."""
 
     means: Floats  # (2, H, W, 3)
     counts: Floats  # (2, H, W, 1): samples
 
     @property
     def mean(self) -> Array:
-        """Of both, (H, W, 3)."""
+        """Mean over both halves, (H, W, 3)."""
         total = np.maximum(self.counts.sum(axis=0), 1)
         mean: Floats = (self.means * self.counts).sum(axis=0) / total
         return mean.astype(np.float32)
 
     @property
     def variance(self) -> Array:
-        """Of that mean, (H, W, 3): (a - b)^2 n_a n_b / n^2; 0 where one is missing."""
+        """Variance of the mean, (H, W, 3): (a - b)^2 n_a n_b / n^2; 0 where a half is missing."""
         share = self.counts / np.maximum(self.counts.sum(axis=0), 1)
         square: Floats = np.square(self.means[0] - self.means[1]) * share[0] * share[1]
         return square.astype(np.float32)
 
     def without(self, first: "LayerSums") -> "LayerSums":
-        """What came after the first samples."""
+        """The sums without the samples of `first`, which came before."""
         counts = self.counts - first.counts
         sums = self.means * self.counts - first.means * first.counts
         return LayerSums(sums / np.maximum(counts, 1), counts)

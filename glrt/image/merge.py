@@ -1,4 +1,4 @@
-"""Parts of a render put together: one picture, whoever rendered them and in whatever order."""
+"""Merge the parts of a render into one picture, whoever rendered them and in whatever order."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
@@ -25,17 +25,17 @@ from glrt.image.partition import Partition
 from glrt.image.recipe import Recipe
 from glrt.settings import Settings
 
-Recipes = Mapping[str, Recipe]  # by the names that messages call pictures
+Recipes = Mapping[str, Recipe]  # by the names of pictures in messages
 
-_DRIVERS = ("renderer", "tier", "pipeline")  # by these, the last bits of samples may differ
+_DRIVERS = ("renderer", "tier", "pipeline")  # the last bits of samples may depend on these
 
 
 def merge(images: Sequence[Image], incomplete: bool = False) -> Image:
-    """The picture that all parts of a render make (`glrt.render(scene, part=(k, n))`).
+    """Merge all parts of a render (`glrt.render(scene, part=(k, n))`) into one picture.
 
-    `incomplete`: where parts are missing, the picture of the others, with the error that it has;
-    else that is a UsageError. So are pictures that are no parts, or not of one render, a part that
-    is given twice, and one that was not rendered to its end.
+    With `incomplete`, parts may be missing: the picture of the others has its own error. Otherwise
+    missing parts raise UsageError. So do pictures that are no parts, or not of one render, a part
+    that is given twice, and a part that was not rendered to its end.
     """
     named = {f"image {number}": image for number, image in enumerate(images, 1)}
     recipes = {name: image.recipe for name, image in named.items()}
@@ -45,7 +45,7 @@ def merge(images: Sequence[Image], incomplete: bool = False) -> Image:
 def merged_image(
     recipes: Mapping[str, Recipe | None], load: Callable[[str], Image], incomplete: bool = False
 ) -> Image:
-    """As `merge`, of pictures by name, each loaded when its turn comes, once for each film.
+    """Merge named pictures as `merge` does; `load` reads each when it is needed, once per film.
 
     So few are held at a time: about the binary logarithm of their number.
     """
@@ -88,7 +88,7 @@ def checked(recipes: Mapping[str, Recipe | None], incomplete: bool) -> Recipes:
 
 
 def _part_of(name: str, recipe: Recipe | None) -> Recipe:
-    """The recipe of one part that is whole."""
+    """The recipe of a complete part; UsageError for any other picture."""
     if recipe is None or recipe.partition is None:
         raise UsageError(f"{name} is not a part of a render: `glrt render --part K/N` makes parts.")
     if len(recipe.partition.numbers) > 1:
@@ -165,7 +165,7 @@ def _incomplete(name: str) -> UsageError:
 
 
 def _with_particles(image: Image, moments: Moments, recipe: Recipe) -> Image:
-    """The picture of the camera's film, and what particles bring to it."""
+    """The picture of the camera's film, plus the light of particles."""
     mean, variance = moments.mean.astype(np.float32), moments.variance.astype(np.float32)
     film = ParticleFilm(image.radiance, mean, variance)
     observations = observations_of(recipe.samples, recipe.settings.block)

@@ -1,4 +1,4 @@
-"""Means and variances of disjoint sets of samples, put together in float64.
+"""Means and variances of disjoint sets of samples, combined in float64.
 
 Chan, Golub and LeVeque, "Updating Formulae and a Pairwise Algorithm for Computing Sample Variances"
 (1979): pairwise, so that errors of rounding grow with the logarithm of the number of sets.
@@ -14,31 +14,32 @@ Array = NDArray[np.float64]
 
 
 class Moments(NamedTuple):
-    """Of each pixel of a film; arrays (H, W, C) or, of counts, (H, W, 1), or what broadcasts.
+    """Moments of each pixel of a film; arrays (H, W, C), counts (H, W, 1), or what broadcasts.
 
-    Samples are gathered into observations, whole but for one that may have begun at the end.
+    Samples are grouped into observations. All are complete, except one that may have begun at the
+    end.
     """
 
-    samples: Array  # how many
-    mean: Array  # of the samples
-    observations: Array  # whole ones
-    variance: Array  # of observations: mean squared deviation from their mean
-    begun: Array  # samples in the observation that has begun
+    samples: Array  # their number
+    mean: Array  # their mean
+    observations: Array  # complete ones
+    variance: Array  # mean squared deviation of observations from their mean
+    begun: Array  # samples in the incomplete observation
     part: Array  # their mean
 
     @property
     def whole_mean(self) -> Array:
-        """The mean of the samples in whole observations; 0 where there are none."""
+        """The mean of the samples in complete observations; 0 where there are none."""
         whole = self.samples - self.begun
         total = self.mean * self.samples - self.part * self.begun
         return _share(total, whole)
 
 
 def merged(load: Sequence[Callable[[], Mapping[str, Moments]]]) -> Mapping[str, Moments]:
-    """All sets together, by the names of their films; each follows the one before it.
+    """Combine all sets, by the names of their films; each set follows the one before it.
 
-    Only the last may end inside an observation. Each is loaded when its turn comes: a few are held
-    at a time. Equal sets in equal order give equal bits.
+    Only the last may end inside an observation. Each is loaded when it is needed, so that a few are
+    held at a time. Equal sets in equal order give equal bits.
     """
     if len(load) == 1:
         return load[0]()
@@ -48,7 +49,7 @@ def merged(load: Sequence[Callable[[], Mapping[str, Moments]]]) -> Mapping[str, 
 
 
 def combined(a: Moments, b: Moments) -> Moments:
-    """Two sets together; `a` ends with an observation."""
+    """Combine two sets; `a` must end with a complete observation."""
     samples, observations = a.samples + b.samples, a.observations + b.observations
     mean = a.mean + (b.mean - a.mean) * _share(b.samples, samples)
     apart = b.whole_mean - a.whole_mean
@@ -58,9 +59,9 @@ def combined(a: Moments, b: Moments) -> Moments:
 
 
 def without(whole: Moments, first: Moments) -> Moments:
-    """The set that `combined` put after `first` to make `whole`.
+    """The set that `combined` has put after `first` to make `whole`.
 
-    Rounding may make a variance that is 0 negative by a trifle: it is 0 then.
+    Rounding may make a variance of 0 slightly negative; it is set to 0 then.
     """
     samples, observations = whole.samples - first.samples, whole.observations - first.observations
     mean = first.mean + (whole.mean - first.mean) * _share(whole.samples, samples)

@@ -1,7 +1,7 @@
-"""A picture that is the sum of two films: of paths from the camera, and of particles from lamps.
+"""A picture as the sum of two films: of paths from the camera, and of particles from lamps.
 
-In a file each film is a layer of its own, `camera` and `particles`, beside their sum. The standard
-error is that of the sum: the two are independent, so that their variances add.
+In a file each film is a layer of its own, `camera` and `particles`, next to their sum. The standard
+error is that of the sum: the films are independent, so their variances add.
 """
 
 from collections.abc import Mapping
@@ -18,19 +18,19 @@ CAMERA, MEAN, VARIANCE = "camera", "particles", "film.particles"
 
 
 class ParticleFilm(NamedTuple):
-    """What the sum does not tell of the two films; arrays (H, W, 3) float32.
+    """The two films of a picture with particles; arrays (H, W, 3) float32.
 
-    Every pixel has the same number of observations of particles: those of the picture, and one
-    more where the picture ends inside of one.
+    Every pixel has the same number of observations of particles: that of the picture, and one more
+    if the picture ends inside an observation.
     """
 
     camera: Array  # radiance of the paths from the camera
     mean: Array  # radiance of the particles
-    variance: Array  # of one observation of particles
+    variance: Array  # variance of one observation of particles
 
 
 def observations_of(samples: int, block: int) -> int:
-    """How many observations of particles there are beside so many samples, `block` in each."""
+    """Number of observations of particles for `samples` a pixel, `block` in each observation."""
     return -(-samples // block)
 
 
@@ -43,14 +43,14 @@ def summed(film: ParticleFilm, stderr: Array, observations: int) -> tuple[Array,
 
 
 def to_channels(film: ParticleFilm) -> dict[str, NDArray[Any]]:
-    """Channels of an EXR file, (H, W, 3) each, which `from_channels` reads back."""
+    """The films as channels of an EXR file, (H, W, 3) each, which `from_channels` reads back."""
     return dict(zip((CAMERA, MEAN, VARIANCE), film, strict=True))
 
 
 def from_channels(
     channels: Mapping[str, NDArray[Any]], size: tuple[int, ...]
 ) -> ParticleFilm | None:
-    """What `to_channels` was given; None where a plane, (H, W), is missing or of another size."""
+    """Read what `to_channels` wrote; None if a plane, (H, W), is missing or of another size."""
     layers = []
     for layer in (CAMERA, MEAN, VARIANCE):
         planes = [channels.get(f"{layer}.{name}") for name in "RGB"]

@@ -1,4 +1,4 @@
-"""A render in parts: ranges of samples that any queue can render and `glrt merge` puts together."""
+"""A render in parts: ranges of samples that any queue can render and `glrt merge` combines."""
 
 import re
 from typing import Self
@@ -11,10 +11,10 @@ from glrt.settings import MAX_SAMPLES, Frozen, Settings
 
 
 class Partition(Frozen):
-    """Which parts of a render a picture holds.
+    """The parts of a render that a picture holds.
 
-    The samples of a render are cut between observations, of 16 samples or of one, into `count`
-    parts that differ by one observation at most; only the last part can end inside one.
+    The samples of a render are cut between observations into `count` parts, which differ by at most
+    one observation. Only the last part can end inside an observation.
     """
 
     count: int = Field(description="parts of the render", ge=1, le=MAX_SAMPLES)
@@ -28,7 +28,7 @@ class Partition(Frozen):
 
     @property
     def is_within(self) -> bool:
-        """Whether the numbers are those of parts."""
+        """Whether all numbers are those of existing parts, 1 to `count`."""
         return self.numbers[0] >= 1 and self.numbers[-1] <= self.count
 
     @property
@@ -50,7 +50,7 @@ class Partition(Frozen):
 
 
 def one_part(number: int, count: int, settings: Settings) -> Partition:
-    """One part of a render with these settings; UsageError where there is no such part."""
+    """One part of a render with these settings; UsageError if there is no such part."""
     observations = -(-settings.samples // settings.block)
     if not 1 <= number <= count:
         raise UsageError(f"--part {number}/{count}: parts are numbered from 1 to {count}.")
@@ -72,7 +72,7 @@ def sample_range(partition: Partition, number: int, settings: Settings) -> range
 
 
 def wanted_range(part: Partition | None, settings: Settings) -> range:
-    """The numbers of the samples that a render wants, or its one part; UsageError as `one_part`."""
+    """The numbers of the samples of a render, or of its one part; UsageError as by `one_part`."""
     if part is None:
         return range(settings.samples)
     one = one_part(part.numbers[0], part.count, settings)
@@ -80,7 +80,7 @@ def wanted_range(part: Partition | None, settings: Settings) -> range:
 
 
 def parse_part(text: str) -> tuple[int, int]:
-    """Number and count from `K/N`; ValueError for anything else."""
+    """Number and count from `K/N`; ValueError for any other text."""
     match = re.fullmatch(r"(\d{1,7})/(\d{1,7})", text)
     if not match:
         raise ValueError(f"{text!r} is not K/N, such as 3/7")

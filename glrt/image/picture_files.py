@@ -1,4 +1,4 @@
-"""Channels and metadata of picture files, read; what is damaged is told in a paragraph."""
+"""Read channels and metadata of picture files; errors describe damage in one paragraph."""
 
 import os
 from collections.abc import Mapping
@@ -12,13 +12,13 @@ from glrt.core.errors import UsageError
 from glrt.core.text import escaped
 from glrt.process.silence import silenced
 
-MOST_PIXELS = 16384**2  # of the largest frame
+MOST_PIXELS = 16384**2  # pixels of the largest frame that is read
 
 _EXR_MAGIC = b"\x76\x2f\x31\x01"
 
 
 def read_exr(path: Path, header_only: bool = False) -> tuple[Mapping[str, Any], Mapping[str, Any]]:
-    """Header and channels by name, (H, W) each."""
+    """Header and channels by name, (H, W) each; UsageError if the file cannot be read."""
 
     if _first_bytes(path) != _EXR_MAGIC:
         raise UsageError(f"{path}: not an EXR image, despite its name; give one that is.")
@@ -32,7 +32,7 @@ def read_exr(path: Path, header_only: bool = False) -> tuple[Mapping[str, Any], 
 def _opened_exr(
     path: Path, header_only: bool, damage: str
 ) -> tuple[Mapping[str, Any], Mapping[str, Any]]:
-    """Header and channels; the library's own words say nothing of what is wrong."""
+    """Header and channels; UsageError says `damage`, as the library's message does not help."""
     import OpenEXR  # type: ignore[import-not-found]
 
     name = exr_name(path)
@@ -51,7 +51,7 @@ def _opened_exr(
 def exr_name(path: Path) -> str:
     """The path of an EXR file as the library takes it: bytes in UTF-8, whatever the locale.
 
-    Raises UsageError where it cannot be.
+    Raises UsageError for a name that is not UTF-8.
     """
     try:
         return os.fsencode(path).decode()
@@ -61,7 +61,7 @@ def exr_name(path: Path) -> str:
 
 
 def _check_size(window: Any, path: Path) -> None:
-    """Raise UsageError for a picture that no memory holds, as a few bytes can claim to be."""
+    """Raise UsageError for a header that claims more pixels than MOST_PIXELS."""
     low, high = (np.asarray(corner, float) for corner in window)
     width, height = high - low + 1
     if width * height > MOST_PIXELS:

@@ -1,4 +1,4 @@
-"""The recipe of a picture: all that made it, as JSON in the picture's metadata."""
+"""The recipe of a picture: all that renders it again, as JSON in the picture's metadata."""
 
 import json
 import re
@@ -17,7 +17,7 @@ from glrt.scene.scene import Scene
 from glrt.scene.scenefile.toml import LARGEST, parse_scene, scene_to_dict
 from glrt.settings import MAX_SAMPLES, Frozen, Settings, settings_for
 
-# What recipes meant before they had a key, where that is not its default now.
+# Values of keys that older recipes lack, where they are not today's defaults.
 BEFORE_THEM: dict[str, Any] = {"linked": 0.0}
 
 Factor = Annotated[float, Field(ge=0)]
@@ -25,7 +25,7 @@ Factors = tuple[Factor, Factor, Factor]
 
 
 class Traced(Frozen):
-    """The light that was gathered, where the picture is a sum of its layers under weights."""
+    """The light that was traced, if the picture is a weighted sum of its layers."""
 
     scene: Scene = Field(description="the scene with the lights that were traced")
     bounces: int = Field(description="the bounce limit that was traced", ge=0, le=1000)
@@ -34,7 +34,7 @@ class Traced(Frozen):
 
     @property
     def plan(self) -> Plan:
-        """What to trace; the settings are the scene's, but for the bounces."""
+        """The plan that was traced; its settings are the scene's, except the bounces."""
         settings = settings_for(self.scene.render, bounces=self.bounces)
         return Plan(SceneFacts(self.scene), settings, self.layering)
 
@@ -46,7 +46,7 @@ class Traced(Frozen):
 
 
 def traced(film: Plan, weights: Weights) -> Traced | None:
-    """What a recipe must tell of a film that is shown under weights; None if they are all 1."""
+    """The record of a film that is shown under weights, for a recipe; None if they are all 1."""
     if are_trivial(weights):
         return None
     return Traced(
@@ -55,12 +55,12 @@ def traced(film: Plan, weights: Weights) -> Traced | None:
 
 
 def lasting(decisions: Mapping[str, str], chosen: Settings, now: Settings) -> dict[str, str]:
-    """Those of `decisions` whose settings are now as they were `chosen`."""
+    """The `decisions` about settings that still have the values that were `chosen`."""
     return {k: v for k, v in decisions.items() if getattr(now, k) == getattr(chosen, k)}
 
 
 class Recipe(Frozen):
-    """Rendered again, it gives the same bits on the same driver."""
+    """All that made a picture; rendered again, it gives the same bits on the same driver."""
 
     scene: Scene = Field(description="the whole scene, as it is shown")
     settings: Settings = Field(description="every setting of the render, as it was asked for")
@@ -99,9 +99,9 @@ class Recipe(Frozen):
 
     @property
     def taken(self) -> Settings:
-        """The settings with the samples that were really taken; parts are those of all samples.
+        """The settings with the samples that were really taken; parts keep those of all samples.
 
-        A render that ended before it could be denoised was not.
+        A render that ended before it could be denoised has no denoiser.
         """
         if self.partition:
             return self.settings
@@ -116,7 +116,7 @@ class Recipe(Frozen):
         return hashes_of(self.scene)
 
     def to_json(self) -> str:
-        """One line of ASCII that `from_json` reads back without loss."""
+        """The recipe as one line of ASCII, which `from_json` reads back without loss."""
         table = self.model_dump(mode="json", exclude={"scene": True, "traced": True})
         if self.traced:
             light = self.traced.model_dump(mode="json", exclude={"scene"})
@@ -127,9 +127,9 @@ class Recipe(Frozen):
 
     @classmethod
     def from_json(cls, text: str, source: str) -> "Recipe":
-        """Read `to_json`'s text; `source` is what messages call the picture.
+        """Read the text of `to_json`; messages call the picture `source`.
 
-        Raises `SceneError` with one paragraph for anything else.
+        Raises `SceneError` with one paragraph for any other text.
         """
         table = _table(text, source)
         hashes = _hashes(table.pop("assets", {}), source)

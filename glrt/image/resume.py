@@ -16,14 +16,14 @@ from glrt.image.recipe import Recipe
 from glrt.plan.methods import reuses_points
 from glrt.settings import Cost, Settings, cost_of
 
-# Else no recipe would give the same bits again.
+# They must be equal: else no recipe would give the same bits again.
 SAME = ("version", "renderer", "tier", "pipeline", "partition", "apart")
 
 
 def recipe_to_resume(image: Image) -> Recipe:
-    """The recipe of a picture that holds all that a render needs to go on.
+    """The recipe of a picture that holds all that a render needs to continue.
 
-    Raises UsageError, with what is missing.
+    Raises UsageError that names what is missing.
     """
     if image.recipe is None:
         raise UsageError("it has no recipe: glrt did not render it, or another program saved it")
@@ -49,10 +49,10 @@ def recipe_to_resume(image: Image) -> Recipe:
 
 
 def fitting(image: Image, wanted: Recipe) -> FilmState:
-    """What the film of a picture had gathered, if a render by the recipe `wanted` would gather it.
+    """The film state of a picture, if a render by the recipe `wanted` can continue it.
 
     Title and samples of the scene may differ, and settings that cost nothing. Raises UsageError
-    that names what else does.
+    that names any other difference.
     """
     recipe = recipe_to_resume(image)
     if differences := [*_differences(Pair(recipe, wanted))]:
@@ -62,9 +62,9 @@ def fitting(image: Image, wanted: Recipe) -> FilmState:
 
 
 def _differences(pair: Pair) -> Iterator[str]:
-    """What the picture has and what is wanted, one difference at a time."""
+    """Yield each difference that keeps a render from continuing the picture."""
     settings = [name for name in Settings.model_fields if cost_of(name) is not Cost.FREE]
-    parts = ["samples"] if pair.left.partition else []  # which samples are in a part
+    parts = ["samples"] if pair.left.partition else []  # the samples of a part depend on it
     yield from differing_settings(pair, settings + parts)
     yield from differing_scenes(pair)
     yield from differing_fields(pair, SAME)

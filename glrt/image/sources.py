@@ -26,11 +26,11 @@ _ITS_NAME = "standard input"
 
 
 class FileRules(NamedTuple):
-    """Which files a scene may name; what the user says, never a scene or a picture."""
+    """Which files a scene may name, as set by the user, never by a scene or a picture."""
 
-    allow_outside: bool = False  # of the folder of the scene
-    folder: Path | None = None  # of the files, where it is not that of the scene or the picture
-    accept_changed: bool = False  # since a picture was made with them
+    allow_outside: bool = False  # files outside the folder of the scene
+    folder: Path | None = None  # folder of the files, if it is not that of the scene or picture
+    accept_changed: bool = False  # files that changed since a picture was made with them
 
 
 STRICT = FileRules()
@@ -43,23 +43,23 @@ def load(
     assets_from: str | Path | None = None,
     accept_changed: bool = False,
 ) -> Scene:
-    """The scene of a TOML file, of a name in the folder `scenes`, of a model or of a picture.
+    """Load the scene of a TOML file, of a name in the folder `scenes`, of a model or of a picture.
 
     A path comes first, then a name, which has no suffix and may contain folders, as
     `methods/glass`. A model is a glTF, OBJ, PLY or STL file. `-` is a TOML file on standard input.
-    The files that the scene names are read from its folder, or that of the picture, or from
-    `assets_from`, and not from outside of it unless `allow_outside`. Those of a picture must be the
-    ones that it was made with, unless `accept_changed`. Raises `SceneError` with one paragraph if
-    there is no such scene or it is wrong, `UsageError` for a picture without recipe.
+    Files that the scene names are read from its folder, from that of the picture, or from
+    `assets_from`; files outside of it need `allow_outside`. Files of a picture must be unchanged
+    since it was made, unless `accept_changed`. Raises `SceneError` with one paragraph if there is
+    no such scene or it is wrong, `UsageError` for a picture without recipe.
     """
     folder = None if assets_from is None else Path(assets_from)
     return load_recipe(source, FileRules(allow_outside, folder, accept_changed))[0]
 
 
 def load_recipe(source: str | Path, rules: FileRules = STRICT) -> tuple[Scene, Settings | None]:
-    """`load`, and the settings of a picture's recipe with the samples that it really took.
+    """Load a scene, and the settings of a picture's recipe with the samples that it really took.
 
-    The settings are None for a scene file, whose wishes are in `scene.render`.
+    The settings are None for a scene file, whose settings are in `scene.render`.
     """
     recipe = recipe_of(source)
     if recipe is not None:
@@ -75,9 +75,9 @@ def load_recipe(source: str | Path, rules: FileRules = STRICT) -> tuple[Scene, S
 
 
 def files_read(recipe: Recipe, picture: Path, rules: FileRules = STRICT) -> Recipe:
-    """The recipe of a picture with the content of the files that it names.
+    """The recipe of a picture, with the content of the files that it names.
 
-    Raises `SceneError` for one that is missing or is not as the picture was made with.
+    Raises `SceneError` for a file that is missing, or has changed since the picture was made.
     """
 
     def read(scene: Scene) -> Scene:
@@ -127,12 +127,12 @@ def scene_file_of(source: str | Path) -> Path | None:
 
 
 def shown(source: str | Path) -> str:
-    """What messages call a SCENE."""
+    """The name of a SCENE in messages."""
     return _ITS_NAME if _is_standard_input(source) else escaped(str(source))
 
 
 def check_not_scene(output: str | Path, source: str | Path) -> None:
-    """Raise UsageError for an output that would replace the scene file, be it through a link."""
+    """Raise UsageError for an output path that is the scene file, or a link to it."""
     file = None if _is_standard_input(source) else find(source)
     if file is None or file.suffix.lower() in PICTURES:
         return

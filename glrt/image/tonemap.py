@@ -15,7 +15,7 @@ from glrt.settings import ToneMap
 Colors = NDArray[np.float64]
 
 LIMIT = 1e9  # every curve is flat to 8 bits long before; float32 squares are finite up to here
-BAND = 64  # rows in work at a time: float64 copies stay small beside the image
+BAND = 64  # rows in work at a time: float64 copies stay small compared to the image
 
 
 def expose_and_encode(radiance: ArrayLike, exposure: float, tonemap: ToneMap) -> NDArray[np.uint8]:

@@ -1,6 +1,7 @@
-"""Where lamps can be seen from: cones around the directions in which they emit.
+"""Cones around the directions in which lamps emit.
 
-A lamp with a cone, or flat and bright on one side, is not chosen at points that it does not light.
+A lamp that has a cone, or that emits from one side alone, is not chosen at points that it does not
+light.
 """
 
 import math
@@ -20,30 +21,30 @@ STEEPEST = 1e30  # slope of an edge without a width
 
 
 class Aims(NamedTuple):
-    """Of n lamps, or groups of them: as the structs Emitter and Aim have it."""
+    """Emission cones of n lamps or groups of lamps, as in the structs Emitter and Aim."""
 
     axis: Array  # (n, 3), unit; 0 where light goes everywhere
-    outer: Array  # (n,)
-    slope: Array  # (n,)
+    outer: Array  # (n,): 1 - cos of the half angle beyond which nothing is emitted
+    slope: Array  # (n,): 1 over the width of the edge in 1 - cos
 
     def of(self, members: Any) -> "Aims":
-        """Those of some of them."""
+        """Return the cones of some of the lamps."""
         return Aims(*(column[members] for column in self))
 
 
 def everywhere(count: int) -> Aims:
-    """Those of so many lamps that emit to all sides: 1 - cos ends at 2."""
+    """Return cones for `count` lamps that emit in all directions: `outer` is above any 1 - cos."""
     return Aims(np.zeros((count, 3)), np.full(count, 4.0), np.ones(count))
 
 
 def cone_fields(cone: Cone) -> tuple[float, float]:
-    """The fields outer and slope of the structs Emitter and Aim."""
+    """Return the fields outer and slope of the structs Emitter and Aim."""
     inner, outer = cone.versines
     return outer, min(1 / (outer - inner), STEEPEST) if outer > inner else STEEPEST
 
 
 def aims_of(scene: Scene, lamps: Sequence[Object], normals: Array) -> Aims:
-    """Those of lamps with these normals, (n, 3) of any length."""
+    """Return the emission cones of lamps with these normals, (n, 3) of any length."""
     found = everywhere(len(lamps))
     lengths = np.linalg.norm(normals, axis=1)
     units = normals / np.where(lengths > 0, lengths, 1)[:, None]
@@ -59,7 +60,7 @@ def aims_of(scene: Scene, lamps: Sequence[Object], normals: Array) -> Aims:
 
 
 def around_all(aims: Aims) -> Aims:
-    """One that lights all that some of them light: theirs if they are one, else a cone."""
+    """Return one cone that holds all given ones: their own if they are equal, else a wider one."""
     if all((column == column[0]).all() for column in aims):
         return aims.of(slice(0, 1))
     axis = aims.axis.mean(axis=0)

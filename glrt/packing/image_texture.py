@@ -11,7 +11,7 @@ from glrt.scene.lights.sky_image import SkyPicture
 
 
 def texture_of(gl: moderngl.Context, pixels: Pixels) -> moderngl.Texture:
-    """A texture of pixels, (H, W, 3), which is not interpolated."""
+    """Return a texture of pixels, (H, W, 3), that is not interpolated."""
     height, width, channels = pixels.shape
     content = np.ascontiguousarray(pixels)
     texture = gl.texture((width, height), channels, content, alignment=1, dtype="f4")
@@ -20,10 +20,10 @@ def texture_of(gl: moderngl.Context, pixels: Pixels) -> moderngl.Texture:
 
 
 class ImageTexture(Shared):
-    """The pixels of an image on the driver, RGB in float32, freed by its last user."""
+    """The pixels of an image on the driver, RGB in float32; its last user frees them."""
 
     def __init__(self, context: Context, picture: SkyPicture) -> None:
-        """SceneError for an image beyond the driver."""
+        """Upload the image; SceneError if it is larger than a texture of the driver may be."""
         assert picture.pixels is not None
         height, width, _ = picture.pixels.shape
         most = int(context.gl.info["GL_MAX_TEXTURE_SIZE"])
@@ -36,5 +36,5 @@ class ImageTexture(Shared):
         self._source = picture.source
 
     def shows(self, picture: SkyPicture) -> bool:
-        """Whether it is of this image."""
+        """Return whether the texture holds this image."""
         return self._source == picture.source

@@ -1,8 +1,8 @@
-"""Meshes with a tree of their own, and the places where they stand: the struct Instance.
+"""Meshes with a BVH of their own, and their placements: the struct Instance.
 
-Such a tree lies in the frame of its mesh: the coordinates of the file, relative to the middle of
-the box around it, in cells of its grid. Wherever the mesh stands it stays as it is; rays are taken
-to that frame.
+Such a BVH lies in the frame of its mesh: the coordinates of the file, relative to the middle of the
+box around the mesh, in cells of its grid. It stays the same wherever the mesh stands, and rays are
+transformed to that frame.
 """
 
 from collections.abc import Sequence
@@ -23,15 +23,15 @@ from glrt.scene.shapes.mesh import Mesh
 Array = np.ndarray[Any, Any]
 
 INSTANCE = CONSTANTS["INSTANCE"]
-ROUNDED = 1 + 2.0**-20  # boxes are so much larger: corners are float32
+ROUNDED = 1 + 2.0**-20  # factor by which boxes are enlarged, since corners are float32
 MOST_HEIGHT = (
-    10  # levels of an own tree: the tree of the scene has what is left of those it may have
+    10  # levels of a mesh's own BVH; the BVH of the scene may have the rest of all levels
 )
-MOST_NUMBERS = 1 << 31  # of shapes and triangles together
+MOST_NUMBERS = 1 << 31  # limit for the numbers of shapes and triangles together
 
 
 class Bases(NamedTuple):
-    """How many rows stand before those of the own trees."""
+    """Numbers of rows that stand before those of the meshes' own BVHs."""
 
     slots: int = 0
     corners: int = 0
@@ -39,10 +39,10 @@ class Bases(NamedTuple):
 
 
 class OwnTrees(NamedTuple):
-    """The trees of some meshes, one after the other."""
+    """The BVHs of some meshes, one after the other."""
 
     names: tuple[tuple[str | None, str | None], ...]  # file and part of each
-    starts: tuple[Bases, ...]  # of the rows of each, beyond the bases
+    starts: tuple[Bases, ...]  # where the rows of each BVH start, beyond the bases
     height: int  # levels of the highest
     bases: Bases
     slots: Array  # (n, SLOT)
@@ -51,17 +51,17 @@ class OwnTrees(NamedTuple):
 
 
 class Instances(NamedTuple):
-    """Where meshes with own trees stand."""
+    """Placements of meshes that have BVHs of their own."""
 
-    boxes: Boxes  # in scene units, with leaves but for where their trees begin
-    rows: Array  # of the struct Instance, but for origins and for where triangles begin
-    origin: Array  # (n, 3): of their frames, in scene units
-    half: Array  # (n, 3): of the boxes around them
-    kind: list[int]  # which of the trees each has
+    boxes: Boxes  # in scene units, with leaves that `place` completes
+    rows: Array  # rows of the struct Instance, which `place` completes
+    origin: Array  # (n, 3): origins of their frames, in scene units
+    half: Array  # (n, 3): half edges of the boxes around them
+    kind: list[int]  # number of the BVH of each
 
 
 def own_trees(meshes: Sequence[Mesh], known: OwnTrees | None) -> OwnTrees:
-    """The trees of the distinct ones among meshes, unless they are `known`."""
+    """Return the BVHs of the distinct meshes; `known` itself if it holds them."""
     kinds = distinct(meshes)[0]
     names = tuple((mesh.file.sha256, mesh.part) for mesh in kinds)
     if known and known.names == names:
@@ -85,7 +85,7 @@ def own_trees(meshes: Sequence[Mesh], known: OwnTrees | None) -> OwnTrees:
 
 
 def _own_tree(mesh: Mesh) -> dict[str, Array]:
-    """Slots, corners and triangles of a mesh in its frame, from the cache where they are many."""
+    """Return slots, corners, triangles and height of a mesh in its frame; large ones are cached."""
     given, grid = mesh.triangles, _grid(mesh)
     owner = np.zeros(len(given.faces), np.uint32)
     found = Triangles(given.vertices, given.shading_normals, given.faces.astype(np.int32), owner)
@@ -102,14 +102,14 @@ def _own_tree(mesh: Mesh) -> dict[str, Array]:
 
 
 def _shift(slots: Array, triangles: Array, by: Bases) -> None:
-    """Let links and numbers of corners begin elsewhere, in place."""
+    """Move links and numbers of corners by `by`, in place."""
     is_node = slots[:, SLOT - 1] < LEAF
     slots[is_node, SLOT - 1] += np.uint32(by.slots)
     triangles["corners"] += by.corners
 
 
 def after(trees: OwnTrees, bases: Bases) -> OwnTrees:
-    """The same trees where so many rows stand before them."""
+    """Return the same BVHs for other `bases`."""
     if trees.bases == bases:
         return trees
     by = Bases(*(new - old for new, old in zip(bases, trees.bases, strict=True)))
@@ -119,7 +119,7 @@ def after(trees: OwnTrees, bases: Bases) -> OwnTrees:
 
 
 def instances_of(meshes: Sequence[Mesh], numbers: Sequence[int], trees: OwnTrees) -> Instances:
-    """The places of the meshes with these numbers; `trees` are theirs."""
+    """Return the placements of the meshes with these numbers, whose BVHs are `trees`."""
     placed = [meshes[number] for number in numbers]
     kind = distinct(placed)[1]
     rows = np.zeros(len(placed), STRUCTS["Instance"])
@@ -145,9 +145,9 @@ def instances_of(meshes: Sequence[Mesh], numbers: Sequence[int], trees: OwnTrees
 
 
 def place(slots: Array, found: Instances, trees: OwnTrees, center: Array) -> Array:
-    """The rows of the struct Instance; writes what they share into their leaves among `slots`.
+    """Return the rows of the struct Instance, and complete their leaves among `slots` in place.
 
-    `center` is the middle of the tree over shapes, in scene units.
+    `center` is the middle of the BVH over shapes, in scene units.
     """
     at = np.flatnonzero(slots[:, SLOT - 1] >> LINK_BITS == LEAF >> LINK_BITS | INSTANCE)
     number = (slots[at, SLOT - 1] & (1 << LINK_BITS) - 1).astype(int) - 1
@@ -165,7 +165,7 @@ def place(slots: Array, found: Instances, trees: OwnTrees, center: Array) -> Arr
 
 
 def check_numbers(instances: int, bits: int, shapes: int) -> None:
-    """Raise SceneError where the triangles of so many instances cannot all have a number."""
+    """Raise SceneError if the triangles of so many instances cannot all have a number."""
     if (instances + 1 << bits) + shapes >= MOST_NUMBERS:
         most = (MOST_NUMBERS - shapes >> bits) - 1
         raise SceneError(

@@ -1,7 +1,7 @@
-"""What the choice among lamps knows of the shape of each: where it is and how far it reaches.
+"""Place and extent of lamps, by which the kernel chooses among them.
 
-A kind of lamp that can be sampled is a row of LAMPS; triangles, which are many of one mesh, have a
-function of their own. Other kinds are found by scattering alone.
+Each kind of lamp that can be sampled has a row in LAMPS. Triangles of meshes have a function of
+their own, since they are many. Paths find other kinds by scattering alone.
 """
 
 import math
@@ -21,17 +21,17 @@ Array = np.ndarray[Any, Any]
 
 
 class Body(NamedTuple):
-    """What the choice among lamps knows of the shape of one."""
+    """Place and extent of one lamp."""
 
-    area: float  # of both its sides
+    area: float  # of both sides; of the outside alone for a sphere
     center: Array  # (3,), float64
     spread2: float  # mean squared distance of its points from the center
     reach: float  # the largest such distance
-    normal: Array  # (3,), of any length; 0 for what has many
+    normal: Array  # (3,), of any length; 0 for a sphere
 
 
 class Bodies(NamedTuple):
-    """Those of n lamps."""
+    """Places and extents of n lamps, a column for each field of Body."""
 
     area: Array  # (n,)
     center: Array  # (n, 3)
@@ -41,13 +41,13 @@ class Bodies(NamedTuple):
 
 
 def sphere_body(lamp: Sphere) -> Body:
-    """It shines outwards."""
+    """Return the body of a sphere, which emits outwards."""
     area, center = 4 * math.pi * lamp.radius**2, np.array(lamp.center, np.float64)
     return Body(area, center, lamp.radius**2, lamp.radius, np.zeros(3))
 
 
 def quad_body(lamp: Quad) -> Body:
-    """A parallelogram."""
+    """Return the body of a parallelogram, with the area of both sides."""
     u, v = np.array(lamp.edge_u, np.float64), np.array(lamp.edge_v, np.float64)
     center, across = np.array(lamp.corner, np.float64) + (u + v) / 2, np.cross(u, v)
     area, spread2 = 2 * float(np.linalg.norm(across)), float(u @ u + v @ v) / 12
@@ -55,13 +55,13 @@ def quad_body(lamp: Quad) -> Body:
 
 
 def disk_body(lamp: Disk) -> Body:
-    """A disk."""
+    """Return the body of a disk, with the area of both sides."""
     area, center = 2 * math.pi * lamp.radius**2, np.array(lamp.center, np.float64)
     return Body(area, center, lamp.radius**2 / 2, lamp.radius, np.array(lamp.normal, np.float64))
 
 
 def triangle_bodies(corner: Array) -> Bodies:
-    """Those of triangles with these corners, (n, 3, 3)."""
+    """Return the bodies of triangles with these corners, (n, 3, 3)."""
     across = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
     center = corner.mean(axis=1)
     apart2 = np.square(corner - center[:, None]).sum(axis=2)
@@ -80,7 +80,7 @@ if {KINDS[kind] for kind in SAMPLED} != {*LAMPS, Mesh}:
 
 
 def bodies_of(lamps: Sequence[Shape]) -> Bodies:
-    """Those of lamps whose kinds are rows of LAMPS."""
+    """Return the bodies of lamps whose kinds are rows of LAMPS."""
     found = [LAMPS[type(lamp)](lamp) for lamp in lamps]
     columns = list(zip(*found, strict=True)) or [()] * len(Bodies._fields)
     area, center, spread2, reach, normal = (np.array(column, np.float64) for column in columns)
@@ -88,5 +88,5 @@ def bodies_of(lamps: Sequence[Shape]) -> Bodies:
 
 
 def joined(first: Bodies, second: Bodies) -> Bodies:
-    """Those of the first, then those of the second."""
+    """Return the bodies of the first lamps, then those of the second."""
     return Bodies(*map(np.concatenate, zip(first, second, strict=True)))

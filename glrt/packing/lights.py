@@ -1,7 +1,8 @@
 """Lamps as the kernel chooses among them: rows of the structs `Light` and `Cluster`.
 
 Few lamps are weighed one by one at each point, so each is a cluster of its own. Many are grouped by
-place into clusters, and these into parts, which are weighed; within a part a table chooses by flux.
+place into clusters, and each cluster is divided into parts. The kernel weighs the clusters, then
+the parts of the chosen one; within a part, a table chooses a lamp by flux.
 """
 
 from collections.abc import Iterator, Sequence
@@ -28,19 +29,20 @@ PARTS, SEVERAL = CONSTANTS["PARTS"], CONSTANTS["SEVERAL"]
 
 
 class Lamps(NamedTuple):
-    """The lamps that can be sampled, those of a part of a cluster side by side; float64."""
+    """The lamps that can be sampled, in float64; lamps of one part of a cluster are adjacent."""
 
-    shapes: list[int]  # their numbers
+    shapes: list[int]  # the kernel's numbers of their shapes
     probability: Array  # (n,): share of the flux, above 0
     bodies: Bodies  # in the scene's coordinates
     aims: Aims | None  # None where all emit to all sides
-    parts: list[list[slice]]  # of each cluster
+    parts: list[list[slice]]  # for each cluster, the lamps of each part
 
 
 def lamps_of(facts: SceneFacts, shapes: Sequence[Shape], tree: SceneTree | None) -> Lamps:
-    """The lamps among the shapes that can be sampled; their number is their place in the list.
+    """Return the lamps among the shapes that can be sampled.
 
-    Triangles of the tree that emit are numbered after all shapes.
+    The number of a shape is its place in the list. Emitting triangles of the BVH are numbered after
+    all shapes.
     """
     scene = facts.scene
     found = [
@@ -79,13 +81,13 @@ def lamps_of(facts: SceneFacts, shapes: Sequence[Shape], tree: SceneTree | None)
 
 
 def radiance(scene: Scene, lamp: Object) -> float:
-    """What a lamp emits where it is brightest, its channels added."""
+    """Return the radiance of a lamp where it is brightest, summed over the channels."""
     red, green, blue = scene.emission_of(lamp)
     return red + green + blue
 
 
 def _bright_triangles(scene: Scene, shapes: Sequence[Shape], tree: SceneTree) -> Array:
-    """The numbers of the triangles that emit."""
+    """Return the numbers of the triangles that emit and can be sampled."""
     meshes = [shape for shape in shapes if isinstance(shape, Mesh)]
     is_bright = np.array([is_sampled(scene.materials[mesh.material]) for mesh in meshes])
     numbers: Array = np.flatnonzero(is_bright[tree.triangles["owner"][: tree.shared]])
@@ -93,7 +95,7 @@ def _bright_triangles(scene: Scene, shapes: Sequence[Shape], tree: SceneTree) ->
 
 
 def pack_lights(lamps: Lamps, dtype: np.dtype[Any]) -> Array:
-    """Rows of the struct Light."""
+    """Return rows of the struct Light."""
     rows = np.zeros(len(lamps.shapes), dtype)
     rows["shape"] = lamps.shapes
     for cluster, parts in enumerate(lamps.parts):
@@ -103,12 +105,12 @@ def pack_lights(lamps: Lamps, dtype: np.dtype[Any]) -> Array:
             keep, alias = alias_table(flux / flux.sum())
             part = len(lamps.parts) + PARTS * cluster + number
             rows["keep"][members] = keep
-            rows["alias"][members] = part << 16 | members.start + alias  # of 65,536 at most
+            rows["alias"][members] = part << 16 | members.start + alias  # below 65,536
     return rows
 
 
 def pack_clusters(lamps: Lamps, eye: Array, dtype: np.dtype[Any]) -> Array:
-    """Rows of the struct Cluster; of many lamps, those of their parts behind them."""
+    """Return rows of the struct Cluster; with many lamps, rows of parts follow the clusters."""
     rows = np.zeros(_row_count(lamps), dtype)
     rows["shape"], rows["reach2"] = SEVERAL, 1  # a part without lamps has the weight 0 / 1
     for number, members in _members(lamps):
@@ -123,7 +125,7 @@ def pack_clusters(lamps: Lamps, eye: Array, dtype: np.dtype[Any]) -> Array:
 
 
 def pack_aims(lamps: Lamps, eye: Array, dtype: np.dtype[Any]) -> Array:
-    """Rows of the struct Aim, one for each of Cluster; none where all emit to all sides."""
+    """Return rows of the struct Aim, one for each of Cluster; none if all lamps emit everywhere."""
     if lamps.aims is None:
         return np.zeros(0, dtype)
     rows = np.zeros(_row_count(lamps), dtype)
@@ -141,7 +143,7 @@ def _row_count(lamps: Lamps) -> int:
 
 
 def _members(lamps: Lamps) -> Iterator[tuple[int, slice]]:
-    """The row of each cluster and part, and its lamps."""
+    """Yield the row of each cluster and part, and its lamps."""
     count = len(lamps.parts)
     for cluster, parts in enumerate(lamps.parts):
         yield cluster, slice(parts[0].start, parts[-1].stop)
@@ -156,7 +158,7 @@ def _shares(lamps: Lamps, members: slice) -> Array:
 
 
 def _middle(lamps: Lamps, members: slice, eye: Array) -> tuple[Array, Array]:
-    """The mean place of the flux, relative to the eye, and the squared distances from it, (n,)."""
+    """Return the flux's mean place, relative to the eye, and squared distances from it, (n,)."""
     places = lamps.bodies.center[members] - eye
     center = _shares(lamps, members) @ places
     return center, ((places - center) ** 2).sum(axis=1)

@@ -1,4 +1,4 @@
-"""What some materials have beyond the struct Material: a row for each such material.
+"""Tables of material data that does not fit into the struct Material.
 
 shaders_glsl/structs/details.glsl declares the rows.
 """
@@ -26,7 +26,7 @@ ALBEDOS = STEPS  # rows of the struct Albedo for each kind of facets
 
 
 def conductor_rows(facts: SceneFacts) -> dict[str, int]:
-    """The rows of the materials that have one in the array of the struct Conductor."""
+    """Return the rows of materials in the array of the struct Conductor, by name."""
     return {metal: row for row, metal in enumerate(_metals(facts))}
 
 
@@ -39,7 +39,7 @@ def _metals(facts: SceneFacts) -> dict[str, Conductor]:
 
 
 def pack_conductors(facts: SceneFacts) -> Array:
-    """Rows of the struct Conductor."""
+    """Return rows of the struct Conductor."""
     metals = _metals(facts)
     rows = np.zeros(len(metals), STRUCTS["Conductor"])
     if metals:
@@ -48,23 +48,23 @@ def pack_conductors(facts: SceneFacts) -> Array:
 
 
 def glass_rows(facts: SceneFacts) -> dict[str, int]:
-    """The rows of the materials that have one in the array of the struct Glass."""
+    """Return the rows of materials in the array of the struct Glass, by name."""
     return {glass: row for row, glass in enumerate(facts.glasses)}
 
 
 def pack_facets(facts: SceneFacts) -> dict[str, Array]:
-    """Rows of the structs Glass, Gloss and Albedo."""
+    """Return rows of the structs Glass, Gloss and Albedo, by name."""
     albedos: Albedos = []
     glasses = _pack_glasses(facts, albedos)
     gloss = _pack_gloss(facts, albedos)
     return {"Glass": glasses, "Gloss": gloss, "Albedo": _rows_of(albedos)}
 
 
-Albedos = list[tuple[Array, Array]]  # two numbers at each step
+Albedos = list[tuple[Array, Array]]  # two albedos at each step
 
 
 def _pack_glasses(facts: SceneFacts, albedos: Albedos) -> Array:
-    """Rows of the struct Glass; what their facets reflect is appended to `albedos`."""
+    """Return rows of the struct Glass, and append the albedos of their facets to `albedos`."""
     glasses = facts.glasses.values()
     rows = np.zeros(len(glasses), STRUCTS["Glass"])
     for row, glass in zip(rows, glasses, strict=True):
@@ -79,7 +79,7 @@ def _pack_glasses(facts: SceneFacts, albedos: Albedos) -> Array:
 
 
 def gloss_rows(facts: SceneFacts) -> dict[str, int]:
-    """The first rows of the materials that have some in the array of the struct Gloss."""
+    """Return the first row of each material in the array of the struct Gloss, by name."""
     found, first = dict[str, int](), 0
     for name, material in _principled(facts).items():
         found[name] = first
@@ -88,7 +88,7 @@ def gloss_rows(facts: SceneFacts) -> dict[str, int]:
 
 
 def _facets(material: Principled) -> list[FacetShares]:
-    """Of each row: one, or where roughness is an image one for each step of it."""
+    """Return the facet shares of each row: one, or one for each step of a textured roughness."""
     if material.roughness_map is None:
         return [facet_shares(material.facet_alpha)]
     return _by_step()
@@ -96,7 +96,7 @@ def _facets(material: Principled) -> list[FacetShares]:
 
 @cache
 def _by_step() -> list[FacetShares]:
-    """Those of each step of roughness, which take two seconds: they are kept on the disk."""
+    """Return the facet shares at each step of roughness; they take 2 s and are kept on disk."""
     texts = [Path(module.__file__ or "").read_bytes() for module in (facets, gloss)]
     known_as = f"gloss-{hashlib.blake2b(b''.join(texts), digest_size=16).hexdigest()}"
     rows = kept(known_as, shares_by_step)
@@ -104,9 +104,9 @@ def _by_step() -> list[FacetShares]:
 
 
 def glass_parts(facts: SceneFacts) -> dict[str, Dielectric]:
-    """The glass that principled materials are in part.
+    """Return the glass of principled materials that are partly glass, by name.
 
-    They are rows of the struct Material after those of the finishes.
+    Its rows of the struct Material follow the rows of the finishes.
     """
     materials = _principled(facts).items()
     return {name: material.glass for name, material in materials if material.glass}
@@ -117,11 +117,11 @@ def _principled(facts: SceneFacts) -> dict[str, Principled]:
 
 
 def _pack_gloss(facts: SceneFacts, albedos: Albedos) -> Array:
-    """Rows of the struct Gloss; what their facets reflect is appended to `albedos`."""
+    """Return rows of the struct Gloss, and append the albedos of their facets to `albedos`."""
     found = _principled(facts)
     of_all = [(name, it, shares) for name, it in found.items() for shares in _facets(it)]
     rows = np.zeros(len(of_all), STRUCTS["Gloss"])
-    first: dict[int, int] = {}  # of the albedos
+    first: dict[int, int] = {}  # row of the albedos, by the identity of shares
 
     def place(shares: FacetShares) -> int:
         if id(shares) not in first:
@@ -146,16 +146,17 @@ def _pack_gloss(facts: SceneFacts, albedos: Albedos) -> Array:
 
 
 def _again(f0: float, f90: float, kept: float) -> float:
-    """Share of light that returns after several facets: F^2 E / (1 - F (1 - E)), means over angles.
+    """Return the share of light that returns after several facets: F^2 E / (1 - F (1 - E)).
 
-    Kulla and Conty, "Revisiting Physically Based Shading at Imageworks" (2017).
+    F is the mean reflectance, and E the share of even light that white facets keep. Kulla and
+    Conty, "Revisiting Physically Based Shading at Imageworks" (2017).
     """
     mean = f0 + (f90 - f0) / 21
     return mean**2 * kept / (1 - mean * (1 - kept))
 
 
 def _taken(f0: float, f90: float, again: float, shares: FacetShares) -> float:
-    """Share of even light that dielectric facets reflect."""
+    """Return the share of even light that dielectric facets reflect."""
     lost = 1 - shares.mean_head_on - shares.mean_grazing
     return f0 * shares.mean_head_on + f90 * shares.mean_grazing + again * lost
 

@@ -1,6 +1,6 @@
 """Materials as rows of the kernel's array: a packer for each type.
 
-docs/extending.md says how a type is added.
+docs/extending.md explains how to add a type.
 """
 
 from collections.abc import Callable
@@ -27,30 +27,30 @@ Array = np.ndarray[Any, Any]
 
 
 def pack_lambertian(row: Any, material: Lambertian) -> None:
-    """Albedo."""
+    """Fill a row of the struct Material with an albedo."""
     row["kind"], row["color"] = CONSTANTS["MATTE"], material.color
 
 
 def pack_metal(row: Any, material: Metal) -> None:
-    """Reflectance, or 1 for what a conductor reflects, and the alpha of GGX."""
+    """Fill a row with reflectance, which is 1 for a conductor, and the alpha of GGX."""
     color = (1.0, 1.0, 1.0) if material.color is None else material.color
     row["kind"], row["color"], row["alpha"] = CONSTANTS["METAL"], color, material.alpha
 
 
 def pack_dielectric(row: Any, material: Dielectric) -> None:
-    """Index of refraction, and the alpha of GGX."""
+    """Fill a row with an index of refraction and the alpha of GGX."""
     row["kind"] = CONSTANTS["PANE" if material.thin else "DIELECTRIC"]
     row["color"] = 1.0
     row["ior"], row["alpha"] = material.ior, material.alpha
 
 
 def pack_light(row: Any, material: Light) -> None:
-    """A lamp scatters as matte surfaces do; its emission follows from the scene."""
+    """Fill a row for a lamp, which scatters as matte surfaces do; the scene sets its emission."""
     row["kind"], row["color"] = CONSTANTS["MATTE"], material.color
 
 
 def pack_principled(row: Any, material: Principled) -> None:
-    """Base colour and what images may vary; the rest stands in the struct Gloss."""
+    """Fill a row with base colour and what textures may vary; the struct Gloss holds the rest."""
     rest = 1 - material.glass_share
     row["kind"], row["color"] = CONSTANTS["PRINCIPLED"], material.color
     row["alpha"], row["roughness"] = material.facet_alpha, material.roughness
@@ -71,7 +71,7 @@ if set(PACKERS) != set(TYPES.values()):
 
 
 def pack_materials(facts: SceneFacts) -> Array:
-    """Rows of the struct Material, one for each finish."""
+    """Return rows of the struct Material: one for each finish, then those of `glass_parts`."""
     scene, finishes, layers = facts.scene, facts.finishes, layer_of_group(facts)
     rows = np.zeros(len(finishes), STRUCTS["Material"])
     rows["ior"], rows["details"] = 1.0, CONSTANTS["NO_DETAILS"]
@@ -91,7 +91,7 @@ def pack_materials(facts: SceneFacts) -> Array:
 
 
 def _glass_parts(facts: SceneFacts) -> Array:
-    """Rows of the glass that some materials are in part, in the order of `glass_parts`."""
+    """Return rows of the glass that some materials partly are, in the order of `glass_parts`."""
     parts, number_of = glass_parts(facts), glass_rows(facts)
     rows = np.zeros(len(parts), STRUCTS["Material"])
     for row, (name, glass) in zip(rows, parts.items(), strict=True):
@@ -101,7 +101,7 @@ def _glass_parts(facts: SceneFacts) -> Array:
 
 
 def pack_emitters(facts: SceneFacts) -> Array:
-    """Rows of the struct Emitter: none where all lamps emit evenly to both sides."""
+    """Return rows of the struct Emitter: none if all lamps emit evenly to both sides."""
     found = _emitters(facts)
     rows = np.zeros(len(found), STRUCTS["Emitter"])
     rows["outer"], rows["slope"] = everywhere(len(found))[1:]
@@ -113,11 +113,11 @@ def pack_emitters(facts: SceneFacts) -> Array:
     return rows
 
 
-Emission = tuple[Cone | None, bool]  # whether it is from the front alone
+Emission = tuple[Cone | None, bool]  # its cone, and whether it is from the front alone
 
 
 def _emitters(facts: SceneFacts) -> list[Emission]:
-    """The ways in which lamps emit, that to all sides first; none where it is the only one."""
+    """Return the ways in which lamps emit, evenly to both sides first; none if that is all."""
     evenly: Emission = (None, False)
     found = dict.fromkeys([evenly, *(_emitter(facts, finish) for finish in facts.finishes)])
     return list(found) if len(found) > 1 else []

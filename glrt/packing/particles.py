@@ -1,4 +1,4 @@
-"""What particles from lamps read: fields of the frame, their targets, and how they leave."""
+"""Kernel data for particles from lamps: frame fields, targets, and the sides that they leave."""
 
 import math
 from typing import Any
@@ -21,14 +21,17 @@ from glrt.scene.scene import Scene
 
 Array = np.ndarray[Any, Any]
 
-UNIT_BITS = 40  # of the radiance of the brightest lamp, in units of what particles add to pixels
-LEAST_SHARE = 0.1  # of the particles that leave the sun, and that leave lamps, where there are both
+UNIT_BITS = 40  # bits of the brightest lamp's radiance, in the unit of a particle's splat
+LEAST_SHARE = 0.1  # least share of particles from the sun, and from lamps, if there are both
 NOWHERE = Ball(np.zeros(3), 0.0)
 _OFF = ("particles", "aimed", "splat_unit", "linked", "linked_groups", "bounds_radius", "from_sun")
 
 
 def particle_fields(plan: Plan) -> dict[str, object]:
-    """The fields of the frame that particles read: as far below the brightest lamp as floats go."""
+    """Return the fields of the frame that particles read; all are 0 with caustics off.
+
+    `splat_unit`, in which particles add to pixels, lies UNIT_BITS bits below the brightest lamp.
+    """
     scene, settings, particles = plan.scene, plan.settings, plan.facts.particles
     if settings.caustics == "off":
         return {**dict.fromkeys(_OFF, 0), "bounds_center": (0.0, 0.0, 0.0)}
@@ -51,14 +54,17 @@ def _unit(brightest: float) -> float:
 
 
 def _from_the_sun(scene: Scene) -> float:
-    """Irradiance of what faces the sun, in its brightest channel: its radiance may be huge."""
+    """Return the irradiance of a surface that faces the sun, in its brightest channel.
+
+    The radiance of a small sun may be huge, so it does not set the unit.
+    """
     if not scene.sun:
         return 0.0
     return max(scene.sun_radiance) * 2 * math.pi * scene.sun.versine
 
 
 def _from_the_sky(particles: ParticleFacts) -> float:
-    """Mean radiance of its image, or the largest of its gradient, where particles leave it."""
+    """Return the mean radiance of a sky image, or a gradient's largest; 0 without particles."""
     if not particles.sky_sends:
         return 0.0
     scene = particles.scene
@@ -68,7 +74,10 @@ def _from_the_sky(particles: ParticleFacts) -> float:
 
 
 def _share_of_the_sun(particles: ParticleFacts, bounds: Ball) -> float:
-    """Of the particles: that of the flux through the ball around the scene, but for bounds."""
+    """Return the sun's share of the particles, by flux through the ball around the scene.
+
+    Next to lamps it is at least LEAST_SHARE and at most 1 - LEAST_SHARE.
+    """
     scene, lamps = particles.scene, particles.lamps
     assert scene.sun
     solid_angle = 2 * math.pi * scene.sun.versine
@@ -81,9 +90,9 @@ def _share_of_the_sun(particles: ParticleFacts, bounds: Ball) -> float:
 
 
 def with_particles(arrays: Arrays, plan: Plan) -> dict[str, Array]:
-    """Arrays of a scene, with what particles read where there are any.
+    """Return the arrays of a scene with the rows that particles read; none with caustics off.
 
-    These are the rows of the structs Target and Sides, which has one for each of Light.
+    These are the rows of the structs Target and Sides; Sides has one for each row of Light.
     """
     if plan.settings.caustics == "off":  # `arrays` may be of the same scene with particles
         return {**arrays, **{name: np.zeros(0, STRUCTS[name]) for name in ("Target", "Sides")}}
@@ -95,7 +104,7 @@ def with_particles(arrays: Arrays, plan: Plan) -> dict[str, Array]:
     shapes, numbers = in_order(scene), arrays["Light"]["shape"]
     sides = np.zeros(len(numbers), STRUCTS["Sides"])
     sides["front"] = 0.5
-    is_shape = numbers < len(shapes)  # others are triangles
+    is_shape = numbers < len(shapes)  # other lamps are triangles
     sides["front"][is_shape] = front_shares(scene, [shapes[it] for it in numbers[is_shape]])
     sides["back"] = 1 - sides["front"]
     return {**arrays, "Target": targets, "Sides": sides}

@@ -1,4 +1,4 @@
-"""What probes read: their grid as fields of the frame, and what each update is given."""
+"""Kernel data for probes: their grid as fields of the frame, and the block of an update."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,12 +21,12 @@ _GRID = read_constants(expanded("probes/grid.glsl"))
 LIGHT_MAP, DISTANCE_MAP = _GRID["LIGHT_SIDE"] + 2, _GRID["DISTANCE_SIDE"] + 2  # texels along edges
 IN_ROW = _GRID["PROBES_IN_ROW"]
 
-_TURN = (5**0.5 - 1) / 2  # of a circle, from one point of a spiral to the next
+_TURN = (5**0.5 - 1) / 2  # share of a circle from one point of a spiral to the next
 _OFF = ("probe_first", "probe_edge", "probe_cell", "probe_count", "probe_counts")
 
 
 def probe_fields(grid: Grid | None, camera: Camera) -> dict[str, object]:
-    """The fields of the frame that tell the grid."""
+    """Return the frame fields that describe the grid, relative to the camera; 0 without a grid."""
     if grid is None:
         return dict.fromkeys(_OFF, 0)
     return {
@@ -39,7 +39,7 @@ def probe_fields(grid: Grid | None, camera: Camera) -> dict[str, object]:
 
 
 def even_directions(count: int) -> Array:
-    """Unit vectors all over the sphere, (count, 3): a spherical Fibonacci lattice.
+    """Return unit vectors evenly spread over the sphere, (count, 3): a spherical Fibonacci lattice.
 
     Keinert et al., "Spherical Fibonacci Mapping", 2015.
     """
@@ -50,7 +50,7 @@ def even_directions(count: int) -> Array:
 
 
 def turn(numbers: NDArray[np.uint32]) -> Array:
-    """A rotation, (3, 3), even over all of them where three numbers are even.
+    """Return a rotation, (3, 3), uniform over all rotations if the first three numbers are uniform.
 
     Shoemake, "Uniform Random Rotations", Graphics Gems III, 1992.
     """
@@ -68,14 +68,14 @@ def turn(numbers: NDArray[np.uint32]) -> Array:
 
 
 def seeds(*numbers: int) -> NDArray[np.uint32]:
-    """Four random numbers that hang on these alone."""
+    """Return four random numbers that depend on these numbers alone."""
     return np.asarray(np.random.SeedSequence(numbers).generate_state(4), np.uint32)
 
 
 def update_block(
     directions: Array, purpose: int, number: int = 0, seed: int = 0, kept: float = 0.0
 ) -> bytes:
-    """The bytes of the block of an update by rays into these directions, (n, 3)."""
+    """Return the bytes of the block of an update by rays into these directions, (n, 3)."""
     fields: dict[str, object] = dict.fromkeys(("spare_a", "spare_b", "spare_c"), 0)
     fields |= {"rays": len(directions), "number": number, "seed": seed}
     rows = np.zeros((MOST_RAYS, 4), np.float32)

@@ -1,4 +1,4 @@
-"""Scene -> the arrays of the kernel, keyed by the name of their struct, and the frame."""
+"""The kernel's arrays of a scene, by the name of their struct, and its frame block."""
 
 import math
 from collections.abc import Mapping
@@ -30,10 +30,10 @@ Array = np.ndarray[Any, Any]
 def pack_scene(
     facts: SceneFacts, tree: SceneTree | None, known: Array | None = None
 ) -> dict[str, Array]:
-    """Arrays for the kernel, keyed by the name of their struct.
+    """Return the kernel's arrays of a scene, by the name of their struct.
 
-    `tree` is that of the scene, as `tree_of` builds it. `known` are the nodes of a scene with the
-    same spheres: their tree is not built again.
+    `tree` is the BVH of the scene that `tree_of` builds. `known` holds the nodes of a scene with
+    the same spheres: their BVH is then refitted, not built again.
     """
     shapes = in_order(facts.scene)
     eye = np.array(facts.scene.camera.position, np.float64)
@@ -57,7 +57,7 @@ def pack_scene(
         "Light": pack_lights(lamps, STRUCTS["Light"]),
         "Cluster": pack_clusters(lamps, eye, STRUCTS["Cluster"]),
         "Aim": pack_aims(lamps, eye, STRUCTS["Aim"]),
-        "Target": np.zeros(0, STRUCTS["Target"]),  # with_particles has them
+        "Target": np.zeros(0, STRUCTS["Target"]),  # with_particles fills them
         "Sides": np.zeros(0, STRUCTS["Sides"]),
     }
 
@@ -73,7 +73,7 @@ class Dispatch(NamedTuple):
 
 
 def pack_camera(camera: Camera, aspect: float) -> dict[str, object]:
-    """The fields of the struct Camera; `aspect` is width over height of the full frame."""
+    """Return the fields of the struct Camera; `aspect` is width over height of the full frame."""
     forward = unit(np.subtract(camera.look_at, camera.position))
     right = unit(np.cross(forward, camera.up))
     tan_y = math.tan(math.radians(camera.fov) / 2)
@@ -90,7 +90,7 @@ def pack_camera(camera: Camera, aspect: float) -> dict[str, object]:
 
 
 def screen_axes(camera: Camera, aspect: float) -> dict[str, tuple[float, ...]]:
-    """The camera as passes over a picture name it, (3,) each.
+    """Return the axes of the camera by the names that passes over a picture use, (3,) each.
 
     `right` and `up` are half the width and height of the full frame at distance 1, `forward` unit.
     """
@@ -107,10 +107,10 @@ def pack_frame(
     tree: SceneTree | None,
     sky_density: float = 0.0,
 ) -> bytes:
-    """The bytes of the uniform block of one dispatch.
+    """Return the bytes of the uniform block of one dispatch.
 
-    `counts` are the rows of each array; `tree` is that of the scene; `sky_density` is the density
-    of samples of the sky image, as sky_table.py has it.
+    `counts` are the numbers of rows by struct. `tree` is the BVH of the scene. `sky_density` is the
+    density of samples of the sky image, as sky_table.py computes it.
     """
     scene, settings, medium = plan.scene, plan.settings, plan.facts.camera_medium
     bottom, *horizon, top = scene.background_colors
@@ -145,7 +145,7 @@ def pack_frame(
 
 
 def _coincident_reach(facts: SceneFacts) -> float:
-    """The largest coordinate of surfaces that share a place, relative to the camera; 0 without."""
+    """Return the largest coordinate of coinciding surfaces, relative to the camera; else 0."""
     shared, eye = facts.coincidence, np.array(facts.scene.camera.position)
     corners = np.array([shared.low, shared.high])
     return float(np.abs(corners - eye).max()) if shared.pairs else 0.0

@@ -1,6 +1,6 @@
-"""The tree over the bounded shapes of a scene: how each kind is packed into its leaves.
+"""The BVH over the bounded shapes of a scene: how each kind is packed into its leaves.
 
-docs/extending.md says how a kind is added.
+docs/extending.md explains how to add a kind.
 """
 
 import math
@@ -30,10 +30,10 @@ from glrt.scene.shapes.kinds import KINDS
 
 Array = np.ndarray[Any, Any]
 
-SLOTS_OF_SHAPE, SLOTS_OF_TRIANGLE = 1.5, 0.8  # in a tree over many
-FEW = 2048  # slots: nodes of small trees are less full
+SLOTS_OF_SHAPE, SLOTS_OF_TRIANGLE = 1.5, 0.8  # slots for each, in a large tree
+FEW = 2048  # spare slots at most: nodes of small trees are less full
 
-# By the name of the struct; those that are not here have no bounds, and stay outside.
+# By the name of the struct. Planes have no bounds and stay outside; triangles have other leaves.
 FAMILIES = {
     "Sphere": Family(CONSTANTS["SPHERE"], ("center", "radius")),
     "Quad": Family(CONSTANTS["QUAD"], ("corner", "normal", "dual_u", "dual_v")),
@@ -52,33 +52,36 @@ if {kind.lower() for kind in FAMILIES} != {*KINDS} - {*ENDLESS, MESH}:
 
 
 class SceneTree(NamedTuple):
-    """The tree that rays find shapes by, and the triangles in it."""
+    """The BVH through which rays find shapes, and the triangles in it."""
 
     shapes: ShapeTree
     corners: Array  # rows of the struct Corner
-    triangles: Array  # rows of the struct Triangle: those of the tree first
-    shared: int  # how many those are; the others are of own trees
+    triangles: Array  # rows of the struct Triangle: those of this tree first
+    shared: int  # how many are of this tree; the others are of meshes' own BVHs
     own: OwnTrees
     instances: Array  # rows of the struct Instance
 
     @property
     def stack(self) -> int:
-        """Entries that the kernel needs room for."""
+        """Number of stack entries that the kernel needs."""
         return self.shapes.stack_with(self.own.height)
 
     @property
     def grid(self) -> Grid:
-        """Where it lies."""
+        """The grid in which the tree lies."""
         return self.shapes.grid
 
     def corner_positions(self, triangles: Array) -> Array:
-        """(n, 3, 3): of triangles by number, in scene units."""
+        """Return the corners of triangles by number, (n, 3, 3), in scene units."""
         corners = self.triangles["corners"][triangles]
         positions: Array = self.corners["position"][corners] + self.grid.center
         return positions
 
     def lit_by(self, lights: Mapping[int, int], first: int) -> Array:
-        """The triangles with their lights, by their number from `first` on."""
+        """Return the rows of triangles with the rows of their lights.
+
+        `lights` maps numbers to rows of the struct Light; triangles are numbered from `first` on.
+        """
         if not lights or max(lights) < first:
             return self.triangles
         rows = self.triangles.copy()
@@ -89,9 +92,9 @@ class SceneTree(NamedTuple):
 
 
 def tree_of(facts: SceneFacts, before: SceneTree | None = None) -> SceneTree | None:
-    """The tree that rays find shapes by; None where they are compared one by one.
+    """Return the BVH through which rays find shapes; None if they are compared one by one.
 
-    Own trees that stand in the tree from `before` are not built again.
+    Meshes' own BVHs that `before` holds are not built again.
     """
     boxes = list(_boxes(facts))
     if not boxes and not facts.shapes[MESH]:
@@ -124,7 +127,7 @@ def tree_of(facts: SceneFacts, before: SceneTree | None = None) -> SceneTree | N
 
 
 def _joined(first: Array, rest: Array) -> Array:
-    """One after the other; of one alone the same array again, which is known by its place."""
+    """Return two arrays, joined; if one is empty, return the other itself, not a copy."""
     if not len(first) or not len(rest):
         return rest if len(rest) else first
     return np.concatenate([first, rest])
@@ -137,10 +140,10 @@ def _built(
     grid: Grid,
     most_height: int,
 ) -> Mapping[str, Array]:
-    """The tree over boxes and triangles, with the latter; of many of them from the cache.
+    """Return the BVH over boxes and triangles, with the triangles; the cache keeps large ones.
 
-    `found` makes those `count` triangles anew when it is asked: they are not held while the tree is
-    built.
+    `found` computes the `count` triangles whenever it is called, so that they are not held in
+    memory while the BVH is built.
     """
     others = sum(len(some.lower) for some in boxes)
 
@@ -164,16 +167,16 @@ def _built(
 
 
 def _room_for(shapes: int, triangles: int) -> int:
-    """Slots of a tree over so many: rarely more are needed, wherever they lie.
+    """Return the number of slots for a BVH over so many; more are rarely needed, wherever they lie.
 
-    So a kernel does for the tree after shapes are moved.
+    So one kernel fits the BVH after shapes are moved, too.
     """
     few = min((shapes + triangles) / 2, FEW)
     return math.ceil(SLOTS_OF_SHAPE * shapes + SLOTS_OF_TRIANGLE * triangles + few)
 
 
 def _boxes(facts: SceneFacts) -> Iterator[Boxes]:
-    """Of the shapes that are not compared one by one, a kind at a time."""
+    """Yield the boxes of shapes that the BVH holds, a kind at a time."""
     shapes, first = in_order(facts.scene) if facts.tree_kinds else [], 0
     for kind in KINDS.values():
         some = [shape for shape in shapes if type(shape) is kind]
@@ -184,7 +187,7 @@ def _boxes(facts: SceneFacts) -> Iterator[Boxes]:
 
 
 def pack_tree(tree: SceneTree | None, arrays: Mapping[str, Array]) -> dict[str, Array]:
-    """Rows of the structs Slot, Corner, Triangle and Instance, over shapes that are packed."""
+    """Return rows of the structs Slot, Corner, Triangle and Instance, from packed shapes."""
     if tree is None:
         names = ("Slot", "Corner", "Triangle", "Instance")
         return {name: np.zeros(0, STRUCTS[name]) for name in names}
@@ -198,7 +201,7 @@ def pack_tree(tree: SceneTree | None, arrays: Mapping[str, Array]) -> dict[str, 
 
 
 def frame_fields(tree: SceneTree | None, eye: Array) -> dict[str, Any]:
-    """Where the grid of the tree lies, for the struct Frame."""
+    """Return where the grid of the BVH lies, relative to the eye, for the struct Frame."""
     if tree is None:
         return {"tree_center": (0, 0, 0), "tree_cell": 1.0}
     return {"tree_center": tree.grid.center - eye, "tree_cell": tree.grid.cell}

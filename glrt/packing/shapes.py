@@ -1,7 +1,7 @@
-"""Shapes as rows of the kernel's arrays: a packer for each kind, in the order of its numbering.
+"""Shapes as rows of the kernel's arrays: a packer for each kind, in the kernel's order.
 
-Positions are taken relative to the camera in float64: far from the origin nothing is lost.
-docs/extending.md says how a kind is added.
+Positions are made relative to the camera in float64, so that no digits are lost far from the
+origin. docs/extending.md explains how to add a kind.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -24,19 +24,19 @@ Array = np.ndarray[Any, Any]
 
 
 class Placing(NamedTuple):
-    """What a packer must know beside its shapes."""
+    """Data that a packer needs in addition to its shapes."""
 
     eye: Array  # position of the camera, float64
     scene: Scene
-    finishes: Mapping[Finish, int]  # row of each material, as it is on some objects
+    finishes: Mapping[Finish, int]  # row of each finish in the array of the struct Material
     lights: Mapping[int, int]  # row of each sampled lamp, by the kernel's number of its shape
 
     def material(self, thing: Shape) -> int:
-        """The row of an object's material."""
+        """Return the row of an object's material."""
         return self.finishes[self.scene.finish(thing)]
 
     def light(self, number: int) -> int:
-        """The row of a lamp, or NO_LIGHT."""
+        """Return the row of a lamp; NO_LIGHT if the shape is not sampled."""
         return self.lights.get(number, CONSTANTS["NO_LIGHT"])
 
 
@@ -110,19 +110,19 @@ def pack_cylinders(
 
 
 def pack_meshes(rows: Array, meshes: Sequence[Mesh], placing: Placing, first: int) -> None:
-    """Fill rows of the struct Mesh; for its triangles see glrt/packing/triangles.py."""
+    """Fill rows of the struct Mesh; glrt/packing/triangles.py packs the triangles."""
     del first  # meshes are no sampled lamps
     rows["material"] = [placing.material(mesh) for mesh in meshes]
     rows["is_smooth"] = [mesh.smooth for mesh in meshes]
 
 
 def unit(value: Array) -> Array:
-    """A vector of length 1 along another."""
+    """Return a vector of length 1 along another one."""
     along: Array = value / np.linalg.norm(value)
     return along
 
 
-# The name of a model is that of its struct.
+# Each model has the name of its struct.
 PACKERS: dict[type, Callable[[Array, Any, Placing, int], None]] = {
     Sphere: pack_spheres,
     Plane: pack_planes,
@@ -139,17 +139,17 @@ if list(PACKERS) != list(KINDS.values()):
 
 
 def order_of_kernel(scene: Scene) -> list[int]:
-    """Places of the visible objects in the scene, by kind, each as in the file."""
+    """Return the places of the visible objects in the scene, by kind, each kind as in the file."""
     return [n for kind in PACKERS for n in scene.shown if type(scene.objects[n]) is kind]
 
 
 def in_order(scene: Scene) -> list[Shape]:
-    """The visible objects as the kernel numbers them."""
+    """Return the visible objects in the kernel's order."""
     return [scene.objects[number] for number in order_of_kernel(scene)]
 
 
 def pack_shapes(shapes: Sequence[Shape], placing: Placing) -> dict[str, Array]:
-    """Rows of each kind by the name of its struct; `shapes` are in the kernel's order."""
+    """Return the rows of each kind by the name of its struct; `shapes` are in kernel order."""
     arrays, first = {}, 0
     for kind, pack in PACKERS.items():
         some = [shape for shape in shapes if type(shape) is kind]

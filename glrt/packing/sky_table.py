@@ -13,14 +13,14 @@ Array = np.ndarray[Any, Any]
 
 
 class SkySampling(NamedTuple):
-    """What an image is sampled by."""
+    """The tree and the density by which a sky image is sampled."""
 
     tree: Array  # (rows, width, 4) float32: sums of the parts of each node, level below level
-    density: float  # per solid angle, where brightness times the sine is 1; 0 for a black image
+    density: float  # probability per solid angle where brightness times sine is 1; 0 if black
 
 
 def sky_sampling(pixels: Pixels) -> SkySampling:
-    """Of an image of the sky, (H, W, 3)."""
+    """Return the tree and the density for an image of the sky, (H, W, 3)."""
     patches = patch_sums(pixels)
     total = float(patches.sum()) / (pixels.shape[0] * pixels.shape[1])
     density = 1 / (2 * np.pi**2 * total) if total > 0 else 0.0
@@ -28,9 +28,9 @@ def sky_sampling(pixels: Pixels) -> SkySampling:
 
 
 def patch_sums(pixels: Pixels) -> Array:
-    """Brightness times sine over the patches between four pixels, (H + 1, W) float64.
+    """Return brightness times sine over the patches between four pixels, (H + 1, W) float64.
 
-    In units of the area of a pixel. The first and the last row reach to the poles.
+    The unit is the area of a pixel. The first and the last row reach to the poles.
     """
     height = len(pixels)
     sines = np.sin(np.pi * (np.arange(height) + 0.5) / height)
@@ -43,7 +43,7 @@ def patch_sums(pixels: Pixels) -> Array:
 
 
 def _tree(patches: Array) -> Array:
-    """Levels from the root on, one below the other."""
+    """Return the levels of the tree from the root on, one below the other, (rows, width, 4)."""
     levels = []
     rows, columns = patches.shape
     size = 1 << (max(rows, columns) - 1).bit_length()
@@ -58,22 +58,22 @@ def _tree(patches: Array) -> Array:
 
 
 class SkyTable(Shared):
-    """That tree on the driver, freed by its last user."""
+    """The sampling tree of a sky image on the driver; its last user frees it."""
 
     def __init__(self, gl: moderngl.Context, picture: SkyPicture) -> None:
-        """Of an image that was read."""
+        """Upload the tree of an image whose pixels were read."""
         assert picture.pixels is not None
         found = sky_sampling(picture.pixels)
         super().__init__(tree_texture(gl, found.tree))
         self.density, self._source = found.density, picture.source
 
     def samples(self, picture: SkyPicture) -> bool:
-        """Whether it is of this image."""
+        """Return whether the tree belongs to this image."""
         return self._source == picture.source
 
 
 def tree_texture(gl: moderngl.Context, tree: Array) -> moderngl.Texture:
-    """The texture of a tree."""
+    """Return the texture of a tree in float32, without interpolation."""
     height, width, _ = tree.shape
     texture = gl.texture((width, height), 4, np.ascontiguousarray(tree), dtype="f4")
     texture.filter = (moderngl.NEAREST, moderngl.NEAREST)

@@ -12,24 +12,24 @@ from glrt.scene.images.texture_sizes import reduced, sizes_of
 from glrt.scene.materials.textures import Texture
 
 BITS = 12
-WIDTH = 1 << BITS  # texels side by side: no image needs an edge of its own
+WIDTH = 1 << BITS  # texels in a line: images follow each other, whatever their width
 
 
 class TexelTexture(Shared):
-    """RGBA in half floats, freed by its last user."""
+    """Texels of all images on surfaces, RGBA in half floats; their last user frees them."""
 
     def __init__(self, context: Context, images: Sequence[Texture]) -> None:
-        """Of the images in the order of their texels; those that are too large are reduced."""
+        """Upload the images in the order of their texels; images that are too large are reduced."""
         super().__init__(texture_of(context.gl, images))
         self._images = list(images)
 
     def holds(self, images: Sequence[Texture]) -> bool:
-        """Whether it is of these images."""
+        """Return whether the texture holds exactly these images, in this order."""
         return [image.source for image in self._images] == [image.source for image in images]
 
 
 def texture_of(gl: moderngl.Context, images: Sequence[Texture]) -> moderngl.Texture:
-    """Lines of WIDTH texels."""
+    """Return a texture of images, in lines of WIDTH texels."""
     sizes = sizes_of([texture.texels.shape[:2] for texture in images])
     count = sum(height * width for height, width in sizes)
     texels: Texels = np.zeros((max(-(-count // WIDTH), 1) * WIDTH, 4), np.float16)

@@ -1,4 +1,4 @@
-"""Images on surfaces: which a material has, their texels, and texture coordinates.
+"""Textures of materials, and texture coordinates of shapes, as rows for the kernel.
 
 shaders_glsl/structs/maps.glsl declares the rows, shaders_glsl/textures/ reads them.
 """
@@ -22,7 +22,7 @@ from glrt.scene.shapes.texture_axes import texture_axes
 Array = np.ndarray[Any, Any]
 
 NO_MAP, ALL_CHANNELS = CONSTANTS["NO_MAP"], CONSTANTS["ALL_CHANNELS"]
-FIELDS = {  # of the struct Maps, by the key of a material
+FIELDS = {  # fields of the struct Maps, by the key of a material
     "color": "color",
     "emission": "emission",
     "normal": "normal",
@@ -36,7 +36,7 @@ _CHANNELS = "rgba"
 
 
 def textures_of(facts: SceneFacts) -> dict[Texture, None]:
-    """The textures of the visible surfaces, each once."""
+    """Return the textures of the visible surfaces, each once."""
     materials = facts.materials.values()
     return {texture: None for it in materials for texture in _textures(it).values()}
 
@@ -46,7 +46,7 @@ def _textures(material: Material) -> Mapping[str, Texture]:
 
 
 def images_of(textures: Mapping[Texture, None]) -> list[Texture]:
-    """One texture for each image or checkerboard, in the order of their texels."""
+    """Return one texture for each image or checkerboard, in the order of their texels."""
     found = dict[object, Texture]()
     for texture in textures:
         found.setdefault(texture.source, texture)
@@ -54,7 +54,7 @@ def images_of(textures: Mapping[Texture, None]) -> list[Texture]:
 
 
 def pack_maps(facts: SceneFacts) -> dict[str, Array]:
-    """Rows of the structs Map, one for each texture, and Maps, one for each finish; or none."""
+    """Return rows of the structs Map, one per texture, and Maps, one per finish; or none."""
     textures, finishes = textures_of(facts), facts.finishes
     maps = np.zeros(len(textures), STRUCTS["Map"])
     images = images_of(textures)
@@ -84,9 +84,10 @@ def pack_maps(facts: SceneFacts) -> dict[str, Array]:
 
 
 def pack_coordinates(facts: SceneFacts, shapes: Sequence[Shape], eye: Array) -> dict[str, Array]:
-    """Rows of the structs Axes, of planes, quads and disks, and Uv and Tangent, of corners.
+    """Return rows of the structs Axes, for flat shapes, and Uv and Tangent, for corners.
 
-    None where there are no images; Tangent where there are none of normals.
+    Flat shapes are planes, quads and disks. There are no rows without textures, and none of Tangent
+    without textures of normals.
     """
     is_mapped, is_bumpy = bool(facts.mapped), "normal" in facts.mapped
     flat = [axes for shape in shapes if (axes := texture_axes(shape)) is not None]
@@ -94,7 +95,7 @@ def pack_coordinates(facts: SceneFacts, shapes: Sequence[Shape], eye: Array) -> 
     for row, axes in zip(axes_rows, flat, strict=False):
         row["origin"], row["u"], row["v"] = axes.origin - eye, axes.u, axes.v
     meshes = corner_meshes(facts) if is_mapped else []
-    own = len(facts.scene.meshes) - len(facts.instances)  # from here on, each in its own frame
+    own = len(facts.scene.meshes) - len(facts.instances)  # from here on, in frames of their own
     count = sum(len(mesh.triangles.vertices) for mesh in meshes)
     uv_rows = np.zeros(count, STRUCTS["Uv"])
     tangents = np.zeros(count if is_bumpy else 0, STRUCTS["Tangent"])

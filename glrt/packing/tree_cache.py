@@ -1,6 +1,6 @@
-"""Trees over many triangles, kept in the user's cache folder: they are read faster than built.
+"""A disk cache for large BVHs in the user's cache folder: they are read faster than built.
 
-A tree is known by a hash of all that it was built from, and of the code that builds trees.
+The key of a BVH is a hash of all that it is built from, and of the code that builds BVHs.
 """
 
 import hashlib
@@ -22,15 +22,15 @@ from glrt.core.resources import cache_folder
 Array = np.ndarray[Any, Any]
 Arrays = Mapping[str, Array]
 
-LEAST = 20_000  # triangles whose tree is kept: smaller ones are built as fast
-MOST_BYTES = 1 << 30  # of all files together; the ones used longest ago go
+LEAST = 20_000  # triangles of a BVH that is kept: smaller ones are built as fast
+MOST_BYTES = 1 << 30  # of all files together; the least recently used are deleted
 
 
 def kept(known_as: str, build: Callable[[], Arrays]) -> Arrays:
-    """What `build` makes, from the cache if it is there under its `key`; else it is kept there.
+    """Return the arrays that `build` makes, from the cache if it has them, else into the cache.
 
-    `build` must give the same arrays for the same key, without Python objects in them. Failures to
-    write are ignored.
+    `known_as` names the arrays, such as the `key` of a BVH. `build` must return the same arrays for
+    the same name, without Python objects in them. Failures to write are ignored.
     """
     path = cache_folder("trees") / f"{known_as}.npz"
     found = _read(path)
@@ -70,7 +70,7 @@ def _drop_oldest(newest: Path) -> None:
 
 
 def key(parts: Sequence[Array]) -> str:
-    """The hash of what a tree is built from, and of the code that builds it."""
+    """Return a hash of the arrays that a BVH is built from, and of the code that builds it."""
     digest = hashlib.blake2b(_code(), digest_size=16)
     for part in parts:
         digest.update(f"{part.dtype.str} {part.shape}\n".encode())
@@ -80,7 +80,7 @@ def key(parts: Sequence[Array]) -> str:
 
 @cache
 def _code() -> bytes:
-    """The modules that build and pack."""
+    """Return the modules that build and pack BVHs, and the version of numpy."""
     here = Path(__file__).parent
     modules = sorted(Path(accel.__file__).parent.glob("*.py"))
     texts = [module.read_bytes() for module in (*modules, here / "triangles.py")]

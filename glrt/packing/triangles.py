@@ -1,7 +1,7 @@
-"""The triangles of all meshes of a scene, relative to the middle of the tree over shapes.
+"""The triangles of all meshes of a scene, relative to the middle of the BVH over shapes.
 
-So they stay as they are when the camera moves: the kernel takes the origins of rays to that frame.
-docs/explanation/meshes.md tells why.
+So they stay the same when the camera moves: the kernel transforms the origins of rays to that
+frame. docs/explanation/meshes.md explains why.
 """
 
 from collections.abc import Collection, Sequence
@@ -22,7 +22,7 @@ from glrt.scene.shapes.mesh import Mesh
 Array = np.ndarray[Any, Any]
 
 PORTION = 1 << 16  # triangles that are packed at once, so that memory is bounded
-_OCTANT = 32767  # of a coordinate of a normal: 16 bits, with 0 and 1 exact
+_OCTANT = 32767  # steps of a normal's coordinate: 16 bits, with 0 and 1 exact
 
 
 class Triangles(NamedTuple):
@@ -35,7 +35,7 @@ class Triangles(NamedTuple):
 
 
 def triangles_of(meshes: Sequence[Mesh], without: Collection[int] = ()) -> Triangles:
-    """The triangles of meshes, one after the other, `without` those of these numbers."""
+    """Return the triangles of meshes, one after the other, `without` meshes of these numbers."""
     position, normal, face, mesh, first = [], [], [], [], 0
     for number, shape in enumerate(meshes):
         if number in without:
@@ -62,7 +62,7 @@ class PackedTriangles(NamedTuple):
 
 
 def pack_triangles(found: Triangles, grid: Grid, unit: float = 1.0) -> PackedTriangles:
-    """One or more triangles in the frame of a grid, in a unit that is a power of two."""
+    """Pack one or more triangles in the frame of a grid, in a unit that is a power of two."""
     local = ((found.position - grid.center) / unit).astype(np.float32)
     exact = local.astype(np.float64)
     pairs = paired(exact, found.face)
@@ -73,7 +73,7 @@ def pack_triangles(found: Triangles, grid: Grid, unit: float = 1.0) -> PackedTri
 
 
 def _leaves(local: Array, pairs: Pairs, of: Array) -> Array:
-    """(k, SLOT): leaves of pairs by number, (k,)."""
+    """Return the leaves, (k, SLOT), of the pairs with the numbers `of`, (k,)."""
     rows = np.zeros((len(of), SLOT), np.uint32)
     rows[:, :12] = local[pairs.corner[of]].reshape(-1, 12).view(np.uint32)
     rows[:, 12:14] = pairs.triangle[of]
@@ -82,7 +82,7 @@ def _leaves(local: Array, pairs: Pairs, of: Array) -> Array:
 
 
 def corner_meshes(facts: SceneFacts) -> list[Mesh]:
-    """The meshes whose vertices are the rows of the struct Corner, in their order."""
+    """Return the meshes whose vertices are the rows of the struct Corner, in their order."""
     placed = facts.scene.meshes
     own = distinct([placed[number] for number in facts.instances])[0]
     shared = [mesh for number, mesh in enumerate(placed) if number not in facts.instances]
@@ -90,7 +90,10 @@ def corner_meshes(facts: SceneFacts) -> list[Mesh]:
 
 
 def pack_tints(facts: SceneFacts) -> Array:
-    """Rows of the struct Tint, one for each corner: white where a mesh has no colours."""
+    """Return rows of the struct Tint, one for each corner: white where a mesh has no colours.
+
+    There are none if no mesh shows colours.
+    """
     if not facts.is_colored:
         return np.zeros(0, STRUCTS["Tint"])
     meshes = [mesh.triangles for mesh in corner_meshes(facts)]
@@ -122,7 +125,7 @@ def _triangles(exact: Array, found: Triangles) -> Array:
 
 
 def _unit(vectors: Array) -> Array:
-    """(n, 3) of length 1; along z where there is no length."""
+    """Return vectors, (n, 3), scaled to length 1; vectors without length become the z axis."""
     length = np.linalg.norm(vectors, axis=1, keepdims=True)
     up = np.broadcast_to([0.0, 0.0, 1.0], vectors.shape)
     unit: Array = np.divide(vectors, length, out=up.copy(), where=length > 0)
@@ -130,10 +133,10 @@ def _unit(vectors: Array) -> Array:
 
 
 def octahedral(normal: Array) -> Array:
-    """(n,) uint32 of unit vectors, (n, 3): x and y on an unfolded octahedron, 16 bits each.
+    """Encode unit vectors, (n, 3), as x and y on an unfolded octahedron: (n,) uint32, 16 bits each.
 
-    "A Survey of Efficient Representations for Independent Unit Vectors" (Cigolle et al., JCGT
-    2014): at most 0.004 degrees off.
+    They are at most 0.004 degrees off. "A Survey of Efficient Representations for Independent Unit
+    Vectors" (Cigolle et al., JCGT 2014).
     """
     flat = normal / np.abs(normal).sum(axis=1, keepdims=True)
     x, y, z = flat.T

@@ -1,8 +1,8 @@
-"""What goes with what: one table of the ways to render that can be asked for together.
+"""A table of the render options that work together.
 
-Each pair of rows works or is refused, by its reason, before anything compiles. A pair that the
-table does not name is refused: whoever adds a row tries each pair first.
-docs/reference/combinations.md is written from here, and a test tries every cell.
+Each pair of options works, or is refused with a reason before anything compiles. A pair that the
+table does not name is refused, so whoever adds an option tries every pair first.
+docs/reference/combinations.md is generated from this table, and a test tries every cell.
 """
 
 from collections.abc import Collection, Iterator
@@ -22,7 +22,7 @@ from glrt.settings import Settings
 
 
 class Way(StrEnum):
-    """A way to render that is not the plain one; its value is what messages call it."""
+    """An option that departs from a plain render; its value is its name in messages."""
 
     CROP = "a crop"
     RESUME = "--resume"
@@ -63,7 +63,7 @@ MEANINGS: dict[Way, str] = {
     Way.ERROR: "`--error`: end at an error",
 }
 
-# Each row with those above it that it works with.
+# For each option: the options above it that it works with.
 _WORKS: dict[Way, tuple[Way, ...]] = {
     Way.CROP: (),
     Way.RESUME: (Way.CROP,),
@@ -147,22 +147,22 @@ _UNTRIED = "nobody has tried the two together"
 
 
 def works(one: Way, other: Way) -> bool:
-    """Whether two ways can be asked for together."""
+    """Return whether two options work together."""
     return other in _WORKS.get(one, ()) or one in _WORKS.get(other, ())
 
 
 def reason(one: Way, other: Way) -> str:
-    """Why two ways are refused together."""
+    """Return why two options are refused together."""
     return _REFUSED.get(frozenset({one, other}), _UNTRIED)
 
 
 def pairs() -> Iterator[tuple[Way, Way]]:
-    """Every cell of the table."""
+    """Yield every pair of options: the cells of the table."""
     return combinations(Way, 2)
 
 
 def check(ways: Collection[Way]) -> None:
-    """UsageError for the first two that do not go together."""
+    """Raise UsageError for the first two options that do not work together."""
     for one, other in combinations([way for way in Way if way in ways], 2):
         if not works(one, other):
             first = one[:1].upper() + one[1:]
@@ -172,7 +172,7 @@ def check(ways: Collection[Way]) -> None:
 def check_render(
     facts: SceneFacts, settings: Settings, layering: Layering, is_part: bool, is_fragment: bool
 ) -> None:
-    """UsageError where a renderer cannot render so."""
+    """Raise UsageError if a renderer cannot combine these options, or cannot follow particles."""
     ways = ways_of(settings, layering)
     ways |= {Way.PART} if is_part else set()
     check(ways | ({Way.FRAGMENT} if is_fragment else set()))
@@ -181,7 +181,7 @@ def check_render(
 
 
 def ways_of(settings: Settings, layering: Layering = "none") -> set[Way]:
-    """The ways that settings and layers of light ask for."""
+    """Return the options that settings and light layers ask for."""
     found = {
         Way.CROP: settings.crop is not None,
         Way.AOV: bool(settings.aov),
@@ -197,7 +197,7 @@ def ways_of(settings: Settings, layering: Layering = "none") -> set[Way]:
 
 
 def refusal(facts: SceneFacts, settings: Settings) -> str | None:
-    """Why particles that are asked for cannot be followed; None if they can, or if none are."""
+    """Return why requested particles cannot be followed; None if they can or none are requested."""
     return next(_refusals(facts, settings), None) if settings.caustics == "on" else None
 
 
@@ -218,7 +218,7 @@ def _refusals(facts: SceneFacts, settings: Settings) -> Iterator[str]:
 
 
 def _dense(facts: SceneFacts) -> list[Shape]:
-    """Shapes of tinted glass or of glass with a priority."""
+    """Return the visible shapes of tinted glass or of glass with a priority."""
     glasses = facts.glasses.items()
     dense = {name for name, it in glasses if any(it.absorption) or it.priority is not None}
     return [thing for thing in facts.scene.visible if thing.material in dense]
@@ -232,7 +232,7 @@ def _shines_in_tinted_glass(facts: SceneFacts) -> bool:
 
 
 def _sun_shines_in_it(facts: SceneFacts) -> bool:
-    """Whether the sun stands on the inner side of a plane of such glass; a part of the sky does."""
+    """Return whether the sun or part of a sky is on the inner side of a plane of `_dense` glass."""
     planes, sun = [it for it in _dense(facts) if isinstance(it, Plane)], facts.scene.sun
     if facts.particles.sky_sends:
         return bool(planes)

@@ -1,4 +1,4 @@
-"""Why each feature of the kernel is compiled in or left out, in words."""
+"""Explain in words why each kernel feature is compiled in or left out."""
 
 from collections.abc import Iterable
 from typing import NamedTuple
@@ -23,7 +23,7 @@ from glrt.scene.shapes.kinds import KINDS
 from glrt.scene.summary import few
 from glrt.settings import Settings
 
-_TEXTURED = {  # by the constant of the kernel: a name, and the keys of materials that ask for it
+_TEXTURED = {  # by kernel constant: a name, and the material keys that need it
     "has_color_map": ("textured color", ("color",)),
     "has_emission_map": ("textured light", ("emission",)),
     "has_gloss_map": ("textured gloss", ("metallic", "roughness")),
@@ -42,7 +42,7 @@ class Feature(NamedTuple):
 
 
 def explain(plan: Plan) -> list[Feature]:
-    """Every feature of the kernel: in or out, and what in the scene decides that."""
+    """List every kernel feature: whether it is compiled in, and what in the scene decides that."""
     scene, settings, found, needs = plan.scene, plan.settings, plan.facts, plan.needs
     used = found.materials
 
@@ -149,7 +149,7 @@ def _coincident(found: SceneFacts) -> str:
 
 
 def _textures(needs: Needs, found: SceneFacts) -> list[Feature]:
-    """A row for each kind of texture, and one for holes."""
+    """Return a feature for each kind of texture, and one for holes."""
     rows = [
         Feature(name, getattr(needs, constant), _mapped(keys, found))
         for constant, (name, keys) in _TEXTURED.items()

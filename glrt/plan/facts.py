@@ -18,19 +18,19 @@ from glrt.scene.shapes.kinds import KINDS
 from glrt.scene.shapes.mesh import Mesh
 from glrt.scene.values import Radiance
 
-TREE_FROM = 33  # bounded shapes: more than are baked, and there a tree pays (docs/results/speed.md)
-SPHERES_FROM = 33  # spheres: from here on a tree of their own is faster
-REST_FROM = 16  # other shapes beside a tree over spheres: from here on a second tree pays
-MOST_NEAR = 32  # lamps that are weighed at each point; of more, so many clusters
-SAMPLED = ("sphere", "quad", "disk", "mesh")  # kinds of lamps; others are found by scattering
-MOST_LAMPS = 65_535  # that can be sampled: a triangle keeps the number of its light in 16 bits
+TREE_FROM = 33  # bounded shapes: more than are baked; a BVH pays from here (docs/results/speed.md)
+SPHERES_FROM = 33  # spheres: from here on a BVH of their own is faster
+REST_FROM = 16  # other shapes, where spheres or meshes have a BVH: from here on they get one too
+MOST_NEAR = 32  # lamps weighed at each point; more are grouped into this many clusters
+SAMPLED = ("sphere", "quad", "disk", "mesh")  # kinds of lamps that are sampled; paths hit others
+MOST_LAMPS = 65_535  # sampled lamps: a triangle stores the number of its light in 16 bits
 ENDLESS = ("plane",)  # kinds of shapes without bounds
-MESH = "mesh"  # the kind whose triangles rays always find by a tree
+MESH = "mesh"  # the kind whose triangles rays always find through a BVH
 
 
 @dataclass(frozen=True)
 class SceneFacts:
-    """What follows from a scene, each fact derived once, when it is first used."""
+    """Facts that follow from a scene, derived when they are first used."""
 
     scene: Scene
     apart: Apart = "repeated"  # which meshes have a BVH of their own
@@ -64,7 +64,7 @@ class SceneFacts:
 
     @cached_property
     def instances(self) -> tuple[int, ...]:
-        """Numbers of the meshes with a BVH of their own."""
+        """Numbers of the visible meshes that have a BVH of their own."""
         return with_own_tree(self.scene.meshes, self.scene.materials, self.apart)
 
     @cached_property
@@ -85,7 +85,7 @@ class SceneFacts:
 
     @cached_property
     def bright_triangles(self) -> int:
-        """Number of triangles that emit."""
+        """Number of triangles whose emission could be sampled."""
         materials = self.scene.materials
         lit = (mesh for mesh in self.scene.meshes if is_sampled(materials[mesh.material]))
         return sum(len(mesh.triangles.faces) for mesh in lit)
@@ -97,14 +97,14 @@ class SceneFacts:
 
     @cached_property
     def is_colored(self) -> bool:
-        """Whether some mesh multiplies colours of its vertices with those of its material."""
+        """Whether some mesh multiplies the colour of its material by colours of its vertices."""
         return any(has_vertex_colors(self.scene, mesh) for mesh in self.scene.meshes)
 
     @cached_property
     def emissions(self) -> dict[str, list[Radiance]]:
-        """Emissions at intensity 1 of each light group with a lamp, of the sun, and of the sky.
+        """Emissions at intensity 1 by light group: of its lamps, of the sun, and of the sky.
 
-        Lamps that are black count, so that the kernel stays the same when they shine.
+        Black lamps count too, so that the kernel stays the same when they start to shine.
         """
         found: dict[str, list[Radiance]] = {}
         for finish in self.finishes:
@@ -119,12 +119,12 @@ class SceneFacts:
 
     @cached_property
     def coincidence(self) -> Coincidence:
-        """Lamps that share a place with other surfaces."""
+        """Flat lamps that lie in the same place as other surfaces."""
         return coincidence_of(self.scene)
 
     @cached_property
     def glasses(self) -> dict[str, Dielectric]:
-        """Glasses that are more than clear and smooth, by name; highest priority first."""
+        """Glasses that are rough, tinted or have a priority, by name; highest priority first."""
         return glasses_of(self.scene, self.finishes)
 
     @cached_property
@@ -139,18 +139,18 @@ class SceneFacts:
 
     @property
     def sampled_lamps(self) -> int:
-        """How many lamps can be sampled."""
+        """Number of lamps that are sampled; each triangle counts as one."""
         return self._lamps_but_triangles + self.lamp_triangles
 
     @property
     def lamp_triangles(self) -> int:
-        """How many triangles are sampled as lamps: of those that emit all, or none of too many."""
+        """Number of triangles sampled as lamps: all bright ones, or none if too many."""
         is_room = self._lamps_but_triangles + self.bright_triangles <= MOST_LAMPS
         return self.bright_triangles if is_room else 0
 
     @property
     def sampled(self) -> tuple[str, ...]:
-        """The kinds of lamps that are there and can be sampled."""
+        """Kinds of lamps in the scene that are sampled."""
         kinds = [kind for kind in SAMPLED if self.lamps[kind]]
         return tuple(kind for kind in kinds if kind != MESH or self.lamp_triangles)
 
@@ -160,18 +160,21 @@ class SceneFacts:
 
     @property
     def instance_bits(self) -> int:
-        """Bits of the number of a triangle within its tree; even, so that kernels do for others."""
+        """Bits for the number of a triangle within its BVH; 0 if no mesh has a BVH of its own.
+
+        The number of bits is even, so that one kernel fits meshes of similar size.
+        """
         bits = max(self.largest_tree - 1, 1).bit_length()
         return bits + bits % 2 if self.instances else 0
 
     @property
     def has_sphere_tree(self) -> bool:
-        """Whether rays are to find spheres by a tree of their own."""
+        """Whether rays find spheres through a BVH of their own."""
         return self.shapes["sphere"] >= SPHERES_FROM
 
     @property
     def tree_kinds(self) -> tuple[str, ...]:
-        """The kinds that rays are to find by the other tree, beside triangles; none without one."""
+        """Kinds of shapes, meshes aside, in the BVH over shapes; empty if they stay outside it."""
         kinds = [kind for kind in KINDS if kind not in (*ENDLESS, MESH) and self.shapes[kind]]
         if self.has_sphere_tree:
             kinds = [kind for kind in kinds if kind != "sphere"]
@@ -180,65 +183,65 @@ class SceneFacts:
 
     @property
     def has_trees(self) -> bool:
-        """Whether rays are to find some shapes by a tree."""
+        """Whether rays find some shapes through a BVH."""
         return self.has_sphere_tree or bool(self.tree_kinds) or self.shapes[MESH] > 0
 
     def count_of(self, kinds: Iterable[str]) -> int:
-        """How many shapes are of these kinds."""
+        """Return the number of visible shapes of these kinds."""
         return sum(self.shapes[kind] for kind in kinds)
 
     @property
     def conductors(self) -> list[str]:
-        """The metals whose reflectance depends on the angle."""
+        """Names of the metals whose reflectance depends on the angle."""
         return [n for n, it in self.materials.items() if isinstance(it, Metal) and it.conductor]
 
     @property
     def coated(self) -> list[str]:
-        """The principled materials that have a coat."""
+        """Names of the principled materials with a clear coat."""
         own = {n: it for n, it in self.materials.items() if isinstance(it, Principled)}
         return [name for name, material in own.items() if material.clearcoat > 0]
 
     @property
     def mapped(self) -> set[str]:
-        """The keys that are images in some material."""
+        """Material keys that some visible material takes from a texture."""
         opaque = [it for it in self.materials.values() if isinstance(it, Opaque)]
         return {key for it in opaque for key in it.textures}
 
     @property
     def transmitting(self) -> list[str]:
-        """The principled materials that are glass in part."""
+        """Names of the principled materials that are partly glass."""
         own = {n: it for n, it in self.materials.items() if isinstance(it, Principled)}
         return [name for name, it in own.items() if it.glass]
 
     @property
     def holed(self) -> list[str]:
-        """The principled materials that light passes in part."""
+        """Names of the principled materials with holes: an alpha below 1 or from a texture."""
         own = {n: it for n, it in self.materials.items() if isinstance(it, Principled)}
         return [name for name, it in own.items() if it.has_holes]
 
     @property
     def solid_glasses(self) -> list[str]:
-        """The glasses that enclose a volume."""
+        """Names of the glasses that enclose a volume."""
         return self._glasses(lambda glass: not glass.thin)
 
     @property
     def rough_glasses(self) -> list[str]:
-        """The glasses whose surface is rough."""
+        """Names of the glasses with a rough surface."""
         return self._glasses(lambda glass: glass.alpha > 0)
 
     @property
     def panes(self) -> list[str]:
-        """The glasses that are thin panes."""
+        """Names of the glasses that are thin panes."""
         return self._glasses(lambda glass: glass.thin)
 
     @property
     def tinted(self) -> list[str]:
-        """The glasses that absorb light."""
+        """Names of the glasses that absorb light."""
         return self._glasses(lambda glass: any(glass.absorption))
 
     @property
     def media(self) -> list[str]:
-        """The glasses that have a priority over each other."""
+        """Names of the glasses with a priority."""
         return self._glasses(lambda glass: glass.priority is not None)
 
     def _glasses(self, are: Callable[[Dielectric], bool]) -> list[str]:
@@ -247,33 +250,33 @@ class SceneFacts:
 
     @property
     def cones(self) -> list[str]:
-        """The materials of lamps whose emission has a cone."""
+        """Names of the lamp materials that emit into a cone of directions."""
         lit = (finish.material for finish in self.finishes if finish.group)
         return [name for name in dict.fromkeys(lit) if getattr(self.materials[name], "cone", None)]
 
     @property
     def one_sided(self) -> list[str]:
-        """The materials of lamps that emit from their front alone."""
+        """Names of the lamp materials that emit from their front alone on some object."""
         lit = (finish.material for finish in self.finishes if finish.is_one_sided)
         return list(dict.fromkeys(lit))
 
     @property
     def is_aimed(self) -> bool:
-        """Whether some lamp cannot be seen from everywhere."""
+        """Whether some lamp cannot be seen from everywhere: it has a cone or one side."""
         return bool(self.cones or self.one_sided)
 
     @property
     def has_many_lights(self) -> bool:
-        """Whether there are more lamps than are weighed one by one."""
+        """Whether there are too many lamps to weigh one by one."""
         return self.sampled_lamps > MOST_NEAR
 
     @property
     def clusters(self) -> int:
-        """How many clusters of lamps are weighed at each point; of few lamps each is one."""
+        """Number of lamp clusters weighed at each point; with few lamps, each lamp is a cluster."""
         return min(self.sampled_lamps, MOST_NEAR)
 
 
 def has_vertex_colors(scene: Scene, mesh: Mesh) -> bool:
-    """Whether colours of its vertices are seen: glass has none."""
+    """Return whether a mesh shows colours of its vertices; glass does not."""
     is_opaque = not scene.materials[mesh.material].is_transparent
     return is_opaque and mesh.triangles.colors is not None

@@ -1,4 +1,4 @@
-"""What the kernel must be able to do for a scene and its settings, and nothing else."""
+"""The features that a kernel needs for a scene and its settings, and no others."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
@@ -12,8 +12,8 @@ from glrt.scene.scene import Scene
 from glrt.scene.shapes.kinds import KINDS
 from glrt.settings import Settings
 
-NEAR = 8  # pixels that one asks for what they have kept
-NO_TREE: dict[str, bool | int] = {"TREE_STACK": 0}  # what the tree needs is known once it stands
+NEAR = 8  # pixels around, whose kept points a pixel reuses
+NO_TREE: dict[str, bool | int] = {"TREE_STACK": 0}  # known once the BVH is built
 NO_LAYERS: dict[str, bool | int] = {
     "LAYERS": 0,
     "BY_LENGTH": False,
@@ -22,7 +22,7 @@ NO_LAYERS: dict[str, bool | int] = {
 }
 PLAIN_PROBES: dict[str, bool | int] = {
     "FROM_PROBES": False,  # paths start at probes
-    "WITHOUT_VISIBILITY": False,  # of probes: for experiments
+    "WITHOUT_VISIBILITY": False,  # ignores the visibility of probes: for experiments
     "WITHOUT_BIAS": False,
 }
 
@@ -31,26 +31,26 @@ PLAIN_PROBES: dict[str, bool | int] = {
 class Needs:
     """The features compiled into a kernel; each is a constant of its prelude, in upper case.
 
-    `shapes`, `materials` and `lamps` become HAS_SPHERE, HAS_SPHERE_LIGHT and so on, one for each
-    kind and type there is, but for matte surfaces, which are always there, and metal, of which
-    there are two sorts.
+    `shapes`, `materials` and `lamps` become HAS_SPHERE, HAS_SPHERE_LIGHT and so on, one constant
+    for each kind or type. Matte surfaces and lamps have none, since every kernel contains them.
+    Metal has two constants of its own, HAS_MIRROR and HAS_ROUGH_METAL.
     """
 
     shapes: frozenset[str]
     materials: frozenset[str]
-    lamps: frozenset[str]  # kinds that are sampled, or lit by in the classic models
+    lamps: frozenset[str]  # kinds that are sampled, or that light surfaces in the classic models
     has_sphere_tree: bool
-    has_tree: bool  # over other shapes
-    has_instance: bool  # meshes with trees of their own
+    has_tree: bool  # a BVH over other shapes
+    has_instance: bool  # meshes with BVHs of their own
     instance_bits: int
     has_smooth: bool  # meshes whose normals are interpolated
     has_vertex_color: bool  # meshes whose vertices have colours
-    has_map: bool  # images on surfaces
+    has_map: bool  # textures
     has_color_map: bool
     has_emission_map: bool
-    has_gloss_map: bool  # of metallic or roughness
+    has_gloss_map: bool  # textures of metallic or roughness
     has_normal_map: bool
-    has_coverage_map: bool  # of alpha
+    has_coverage_map: bool  # textures of alpha
     has_transmission_map: bool
     has_mirror: bool
     has_rough_metal: bool
@@ -58,9 +58,9 @@ class Needs:
     has_pane: bool  # glass that is thin
     has_attenuation: bool  # glass that absorbs light
     has_nested: bool  # glasses that overlap by priority
-    media: int  # how many of them
+    media: int  # number of glasses with a priority
     has_transmission: bool  # principled surfaces that are glass in part
-    has_hole: bool  # or have holes
+    has_hole: bool  # principled surfaces with holes
     has_coat: bool  # principled surfaces under a clear coat
     has_conductor: bool  # metal whose reflectance depends on the angle
     has_lens: bool
@@ -69,31 +69,31 @@ class Needs:
     has_coincident: bool  # flat lamps that share a place with other surfaces
     has_background: bool
     has_horizon: bool  # a background of two gradients
-    has_environment: bool  # a background in an image
+    has_environment: bool  # a background given by an image
     has_sun: bool
-    sample_sky: bool  # the image of the sky
+    sample_sky: bool  # samples the image of the sky
     sample_sun: bool
     sample_lights: bool
     weight_both: bool
-    quads_by_area: bool  # points on lamps even in area, not in solid angle
-    has_particles: bool  # from lamps, linked to the camera
-    casters: int  # spheres at which some of them are aimed: a bit for each
-    targets: int  # balls around other shapes at which some of them are aimed
-    linked: int  # smooth spheres through which some of them are linked: a bit for each
-    has_probes: bool  # indirect light from a grid of them
-    final_gather: bool  # over one more matte surface, to which paths are traced
+    quads_by_area: bool  # samples lamps evenly by area, not by solid angle
+    has_particles: bool  # particles from lamps, linked to the camera
+    casters: int  # spheres at which some particles are aimed: a bit for each
+    targets: int  # number of balls around other shapes at which some particles are aimed
+    linked: int  # smooth spheres through which some particles are linked: a bit for each
+    has_probes: bool  # indirect light from a grid of probes
+    final_gather: bool  # traces paths to one more matte surface before it reads probes
     resamples: bool  # keeps one of the points that light the first matte surface
-    reuses_own: bool  # what the sample before has kept for the pixel, too
-    reuses_near: int  # and for so many pixels around
-    unbiased: bool  # asks what of that other pixels could have found
+    reuses_own: bool  # reuses the point that the previous sample kept for the pixel
+    reuses_near: int  # number of pixels around, whose kept points are reused
+    unbiased: bool  # checks which reused points other pixels could have found
     roulette: bool
-    model: int  # of those before path tracing; 0: paths are traced
-    many_lights: bool  # more than MOST_NEAR to sample
-    clusters: int  # lamps to weigh at each point, or of many clusters of them
-    block: int  # samples of an observation: 16 for Sobol's points, 1 for independent numbers
+    model: int  # number of a classic lighting model; 0: paths are traced
+    many_lights: bool  # more than MOST_NEAR lamps are sampled
+    clusters: int  # lamps weighed at each point, or clusters of many lamps
+    block: int  # samples in an observation: 16 or 64 of Sobol's points, 1 of independent numbers
 
     def constants(self) -> dict[str, bool | int]:
-        """The prelude: what the compiler may take for granted."""
+        """Return the constants of the kernel's prelude, by name."""
         kinds = {f"HAS_{kind.upper()}": kind in self.shapes for kind in KINDS}
         own = [name for name in TYPES if name not in WITHOUT_OWN_FLAG]
         types = {f"HAS_{name.upper()}": name in self.materials for name in own}
@@ -106,10 +106,11 @@ class Needs:
 
 
 def everything() -> dict[str, bool | int]:
-    """The constants of a kernel with every feature, for functions that are tried alone.
+    """Return the constants of a kernel with every feature, to try single functions.
 
-    Paths are traced; lamps are chosen as in the scene that the caller names, or not at all. The sky
-    has two gradients and no image, which would take their place, as probes would that of paths.
+    Paths are traced, and no lamp is chosen unless the caller replaces the constants of that choice.
+    The sky has two gradients. It has no image, which would take their place, and there are no
+    probes, which would take the place of paths.
     """
     plain: Any = {field.name: field.name not in _IMAGE for field in fields(Needs)}
     sets = {name: frozenset(all_) for name, all_ in _SETS.items()}
@@ -127,7 +128,7 @@ WITHOUT_OWN_FLAG = ("lambertian", "light", "metal")
 
 
 def needs_of(facts: SceneFacts, settings: Settings) -> Needs:
-    """The features that this scene, rendered with these settings, makes use of."""
+    """Return the features that this scene needs with these settings."""
     scene, particles, traits = facts.scene, facts.particles, METHODS[settings.method]
     is_lit = traits.uses_lamps and facts.sampled_lamps > 0
     is_pictured, has_sun = has_image(scene), any(scene.sun_radiance)
@@ -189,7 +190,7 @@ def needs_of(facts: SceneFacts, settings: Settings) -> Needs:
 
 
 def _of_probes(settings: Settings, found: SceneFacts) -> dict[str, Any]:
-    """The features of methods with probes."""
+    """Return the features of methods with probes."""
     traits = METHODS[settings.method]
     resamples = traits.resamples and not found.holed  # a ray sees through holes at random
     reuses = resamples and reuses_points(settings)
@@ -209,12 +210,15 @@ def _types(found: SceneFacts, follows: bool) -> frozenset[str]:
 
 
 def has_image(scene: Scene) -> bool:
-    """Whether light comes from an image of the sky."""
+    """Return whether light comes from an image of the sky."""
     return any(map(any, scene.background_colors)) and scene.background.is_pictured
 
 
 def _model_number(method: str, metals: Sequence[Metal]) -> int:
-    """Of the model; without highlights, the two that differ in their form are one."""
+    """Return the number of a method's lighting model; 0 for path tracing.
+
+    Without rough metal, `blinn` is the same model as `phong`: they differ only in highlights.
+    """
     if method == "blinn" and not any(metal.alpha > 0 for metal in metals):
         return METHODS["phong"].model
     return METHODS[method].model

@@ -1,4 +1,4 @@
-"""How many particles leave each side of a lamp that shines on both, or on one."""
+"""The share of a lamp's particles that leaves from each of its sides."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -12,20 +12,21 @@ from glrt.scene.shapes.mesh import Mesh
 from glrt.scene.shapes.quad import Quad
 
 Things = Mapping[type[Object], Sequence[Object]]
-Rows = Mapping[type[Object], Array]  # of the things of each kind, in their order
+Rows = Mapping[type[Object], Array]  # one for each thing of a kind, in order
 
-CLOSE = 2.5  # times the size of a lamp, its root area: what is nearer glows, and lights the rest
-MUCH = 2.0  # times as far, so that one side alone is close
-MOST = 0.9  # of the particles of a lamp, on its side that is close to something
+CLOSE = 2.5  # times the root of a lamp's area: nearer surfaces glow, and light the rest
+MUCH = 2.0  # one side alone is close if the other has so many times its distance
+MOST = 0.9  # share of a lamp's particles on its side that is close to something
 
 
 def front_shares(scene: Scene, lamps: Sequence[Object]) -> list[float]:
-    """The share of the particles that leave the front of each lamp, of those that are not aimed.
+    """Return for each lamp the share of its particles that leave its front, without aimed ones.
 
-    Light that leaves into the open is found well by sampling the lamp, but for what makes caustics,
-    at which particles are aimed. Light that lands close to the lamp lights the rest of the scene
-    from there, which paths from the camera find by chance alone. So most particles leave on that
-    side. Half do where neither side is close to anything, or both are.
+    Light that leaves into the open is found well by sampling the lamp, except for caustics, for
+    which particles are aimed. Light that lands close to the lamp lights the rest of the scene from
+    there, which paths from the camera find by chance alone. So most particles leave on the side
+    that is close to something. Half leave on each side if neither or both are close, and all leave
+    the front of a one-sided lamp.
     """
     things: dict[type[Object], list[Object]] = {}
     for thing in scene.visible:
@@ -47,7 +48,7 @@ def _front_share(lamp: Object, things: Things, rows: Rows) -> float:
 
 
 def _facing(lamp: Sided) -> tuple[Array, Array, float]:
-    """Its middle, its unit normal (3,) and its size."""
+    """Return the middle, (3,), unit normal, (3,), and size (root of the area) of a flat lamp."""
     middle = np.array(lamp.middle, np.float64)
     if isinstance(lamp, Quad):
         across = np.cross(lamp.edge_u, lamp.edge_v)
@@ -59,7 +60,7 @@ def _facing(lamp: Sided) -> tuple[Array, Array, float]:
 
 
 def _room(lamp: Object, things: Things, rows: Rows, middle: Array, away: Array) -> float:
-    """How far it is to what lies before the middle of a side; inf where nothing does."""
+    """Return the distance from the middle of a side to the nearest surface; inf without one."""
     nearest = math.inf
     for kind in sorted(rows, key=lambda kind: kind is Mesh):  # meshes last, if they are near enough
         with np.errstate(all="ignore"):

@@ -1,6 +1,6 @@
-"""The methods, a row each: what each one does, and so what it needs of a kernel.
+"""A table of the render methods and their traits, which decide what a kernel needs.
 
-docs/extending.md says how a method is added.
+docs/extending.md explains how to add a method.
 """
 
 from dataclasses import dataclass
@@ -11,27 +11,27 @@ from glrt.settings import Method, Reuse, Settings
 
 @dataclass(frozen=True)
 class Traits:
-    """What a method does."""
+    """The traits of a render method."""
 
     model: int = 0  # its number in shaders_glsl/integrators/classic.glsl; 0 traces paths
-    samples_lights: bool = False  # at each vertex of a path
-    weights_both: bool = False  # light sampling and scattering, by the power heuristic
-    chooses_lights: bool = False  # one of several at each point, by flux and nearness
-    follows: bool = True  # mirrors and glass
+    samples_lights: bool = False  # samples a light at each vertex of a path
+    weights_both: bool = False  # weighs light sampling and scattering by the power heuristic
+    chooses_lights: bool = False  # chooses one lamp at each point, by flux and nearness
+    follows: bool = True  # follows light over mirrors and through glass
     has_lens: bool = True
-    has_rough: bool = True  # metal and glass; else they are smooth
-    has_probes: bool = False  # indirect light from a grid of them
-    gathers: bool = False  # their light over one more matte surface, to which paths are traced
-    resamples: bool = False  # the light of the first matte surface
+    has_rough: bool = True  # renders rough metal and glass; else they are smooth
+    has_probes: bool = False  # takes indirect light from a grid of probes
+    gathers: bool = False  # traces paths to one more matte surface before it reads probes
+    resamples: bool = False  # resamples the light of the first matte surface
 
     @property
     def uses_lamps(self) -> bool:
-        """Whether it finds lamps otherwise than by scattering."""
+        """Whether the method finds lamps by other means than scattering."""
         return self.samples_lights or self.model > 0
 
     @property
     def weighs_particles(self) -> bool:
-        """Whether paths from lamps can be weighed with its own."""
+        """Whether the method can weigh paths from lamps together with its own."""
         return self.weights_both and not self.has_probes
 
 
@@ -56,17 +56,17 @@ METHODS: dict[str, Traits] = {
         resamples=True,
     ),
 }
-CLASSIC = [name for name, traits in METHODS.items() if traits.model]  # before path tracing
-# Those whose picture, however many samples it has, is not the light of the scene.
+CLASSIC = [name for name, traits in METHODS.items() if traits.model]  # older than path tracing
+# Methods whose picture does not converge to the light of the scene.
 BIASED = [name for name, traits in METHODS.items() if traits.model or traits.has_probes]
 
 if list(METHODS) != list(get_args(Method)):
     raise TypeError(f"methods have rows {list(METHODS)}, and settings {get_args(Method)}")
 
-TEMPORAL: tuple[Reuse, ...] = ("temporal", "both")  # of what the pixel has kept
-SPATIAL: tuple[Reuse, ...] = ("spatial", "both")  # of what pixels around have
+TEMPORAL: tuple[Reuse, ...] = ("temporal", "both")  # reuse what the pixel has kept
+SPATIAL: tuple[Reuse, ...] = ("spatial", "both")  # reuse what pixels around have kept
 
 
 def reuses_points(settings: Settings) -> bool:
-    """Whether a sample takes up what the one before has kept."""
+    """Return whether a sample reuses the points that the previous one kept."""
     return METHODS[settings.method].resamples and settings.reuse != "none"

@@ -1,4 +1,4 @@
-"""What a method leaves out of a scene, in plain words: its failures against what is in there."""
+"""Light that a render method leaves out of a scene, in words."""
 
 from collections.abc import Iterator
 
@@ -11,9 +11,9 @@ from glrt.settings import Settings
 
 
 def omissions(facts: SceneFacts, settings: Settings) -> list[str]:
-    """The light that this method does not show in this scene; nothing for those that trace paths.
+    """Return the light of this scene that the method does not show; nothing for path tracing.
 
-    What a limit of bounces cuts off is not among it.
+    Light beyond the limit of bounces is not listed.
     """
     if METHODS[settings.method].has_probes:
         return list(_blurred(facts, settings))
@@ -21,7 +21,7 @@ def omissions(facts: SceneFacts, settings: Settings) -> list[str]:
 
 
 def _blurred(facts: SceneFacts, settings: Settings) -> Iterator[str]:
-    """What probes do not hold of the light that paths leave to them."""
+    """Yield the indirect light that probes cannot hold."""
     gathers = METHODS[settings.method].gathers
     if settings.bounces < 2 + gathers or not facts.scene.visible:
         return
@@ -39,7 +39,7 @@ def _blurred(facts: SceneFacts, settings: Settings) -> Iterator[str]:
 
 
 def _omissions(facts: SceneFacts, method: str) -> Iterator[str]:
-    """From what usually weighs most to what weighs least."""
+    """Yield what a classic lighting model leaves out, usually the most important first."""
     scene, materials = facts.scene, facts.materials.values()
     kinds = {material.type for material in materials}
     metals = [material for material in materials if material.type == "metal"]
@@ -83,7 +83,7 @@ def _omissions(facts: SceneFacts, method: str) -> Iterator[str]:
 
 
 def left_out(settings: Settings, missing: list[str]) -> str:
-    """A sentence that names what `omissions` found."""
+    """Return a sentence that names what `omissions` found."""
     what = "blurs light" if METHODS[settings.method].has_probes else "leaves light out"
     return (
         f"Method {settings.method} {what}, which no estimated error contains: {'; '.join(missing)}."

@@ -1,4 +1,4 @@
-"""Particles from lamps: which they leave, what they are aimed at, and where they cannot go."""
+"""Particles from lamps: lamps that send them, targets at which they are aimed, and their limits."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -22,44 +22,44 @@ from glrt.scene.shapes.quad import Quad
 from glrt.scene.shapes.sphere import Sphere
 from glrt.settings import Settings
 
-BITS = 31  # of a number in the shaders that stand for spheres
-TOUCHING = 1e-6  # of a radius: what reaches no deeper into a sphere touches it
+BITS = 31  # bits of a number in the shaders, one for each sphere
+TOUCHING = 1e-6  # share of a radius: a shape that reaches no deeper into a sphere touches it
 MOST_TARGETS = 8  # balls around other shapes, at which particles are aimed
 ROUGHEST = 0.4**2  # alpha of metal that makes caustics: roughness 0.4
 GROUP = 64  # particles that one work group follows at a time: shaders_glsl/particles.comp
 
 
 class Ball(NamedTuple):
-    """Around shapes, in the scene's coordinates."""
+    """A ball around shapes, in scene coordinates."""
 
     center: Array  # (3,) float64
     radius: float
 
     def holds(self, other: "Ball") -> bool:
-        """Whether another ball lies within."""
+        """Return whether another ball lies within this one, up to rounding."""
         apart = float(np.linalg.norm(other.center - self.center))
         return apart + other.radius <= self.radius * (1 + TOUCHING)
 
 
 def particle_groups(settings: Settings) -> int:
-    """How many work groups follow the particles of one sample of each pixel of the frame."""
+    """Return how many work groups follow the particles of one sample of each pixel of the frame."""
     return max(1, round(settings.particles * settings.width * settings.height / GROUP))
 
 
 def particles_a_sample(settings: Settings) -> float:
-    """How many particles there are for each sample of a pixel: whole work groups of them."""
+    """Return the number of particles for each sample of a pixel, in whole work groups."""
     return particle_groups(settings) * GROUP / (settings.width * settings.height)
 
 
 def linked_groups(settings: Settings) -> int:
-    """How many of the work groups link their particles through spheres, too."""
+    """Return how many of the work groups also link their particles through spheres."""
     if not settings.linked:
         return 0
     return max(1, round(settings.linked * particle_groups(settings)))
 
 
 def is_sampled(material: Material) -> bool:
-    """Whether a lamp of this material can be sampled: not by an image, and not with holes."""
+    """Return whether a material emits and can be sampled: no textured emission, no holes."""
     if isinstance(material, Principled) and material.has_holes:
         return False
     return material.emits and not (isinstance(material, Opaque) and "emission" in material.textures)
@@ -67,14 +67,14 @@ def is_sampled(material: Material) -> bool:
 
 @dataclass(frozen=True)
 class ParticleFacts:
-    """Facts of a scene that particles need, each derived once, when it is first used."""
+    """Facts of a scene that particles need, derived when they are first used."""
 
     scene: Scene
     has_sphere_tree: bool  # whether rays find spheres by a BVH
 
     @cached_property
     def lamps(self) -> list[Object]:
-        """Lamps that particles leave, in addition to the sun."""
+        """Lamps that send particles, in addition to the sun or the sky."""
         kinds = Sphere | Quad | Disk | Mesh
         known = (thing for thing in self.scene.visible if isinstance(thing, kinds))
         return [thing for thing in known if is_sampled(self.scene.materials[thing.material])]
@@ -85,12 +85,12 @@ class ParticleFacts:
 
     @property
     def sun_sends(self) -> bool:
-        """Whether the sun shines on shapes with bounds."""
+        """Whether the sun sends particles: it shines, and some shape has bounds."""
         return self._is_finite and any(self.scene.sun_radiance)
 
     @property
     def sky_sends(self) -> bool:
-        """Whether the sky is the only light, and shines on shapes with bounds."""
+        """Whether the sky sends particles: it is the only light, and some shape has bounds."""
         others = bool(self.lamps) or any(self.scene.sun_radiance)
         return self._is_finite and not others and any(map(any, self.scene.background_colors))
 
@@ -98,7 +98,7 @@ class ParticleFacts:
     def targets(self) -> list[Ball]:
         """Balls around boxes, cylinders and meshes that make caustics: particles are aimed there.
 
-        The largest come first. A ball within another is left out, as are those beyond MOST_TARGETS.
+        The largest come first. A ball within another is left out, as are balls beyond MOST_TARGETS.
         """
         materials = self.scene.materials
         solids = (it for it in self.scene.visible if isinstance(it, Box | Cylinder | Mesh))
@@ -118,8 +118,8 @@ class ParticleFacts:
     def casters(self) -> int:
         """Bits of the spheres that make caustics, at which particles can be aimed.
 
-        A bit is the number of a sphere among the spheres. Spheres beyond bit 30 are left out, and
-        all spheres where rays find them by a BVH.
+        Bit k stands for sphere k among the visible spheres. Spheres beyond bit 30 are left out, and
+        all spheres where rays find them through a BVH.
         """
         spheres = [thing for thing in self.scene.visible if isinstance(thing, Sphere)]
         known = [] if self.has_sphere_tree else spheres[:BITS]
@@ -130,8 +130,8 @@ class ParticleFacts:
     def links(self) -> int:
         """Bits of the spheres through which particles can be linked to the camera.
 
-        They are smooth casters. Left out are thin glass, glass with a priority, glass that lies in
-        denser glass, glass in part, and spheres that something reaches into.
+        They are smooth casters. Thin glass is left out, and so are glass with a priority, glass
+        with an index below 1, glass in part, and spheres that something reaches into.
         """
         scene = self.scene
         spheres = [thing for thing in scene.visible if isinstance(thing, Sphere)]
@@ -140,7 +140,7 @@ class ParticleFacts:
 
 
 def ball_around(scene: Scene) -> Ball | None:
-    """A ball around all shapes except planes, or None without such shapes."""
+    """Return a ball around all shapes except planes, or None without such shapes."""
     balls = [_ball(thing) for thing in scene.visible if not isinstance(thing, Plane)]
     if not balls:
         return None
@@ -164,7 +164,7 @@ def _bends_as_known(scene: Scene, sphere: Sphere) -> bool:
 
 
 def _is_empty(scene: Scene, sphere: Sphere) -> bool:
-    """Whether nothing, nor the box around it, reaches into a sphere."""
+    """Return whether no other shape, nor the box around it, reaches into a sphere."""
     others: dict[type[Object], list[list[float]]] = {}
     for thing in scene.visible:
         if thing is not sphere:
@@ -178,7 +178,7 @@ def _is_empty(scene: Scene, sphere: Sphere) -> bool:
 
 
 def _distances(kind: type[Object], rows: Array, point: Array) -> Array:
-    """From a point to shapes of a kind, or to the boxes around them, (n,)."""
+    """Return the distances from a point to shapes of a kind, or to the boxes around them, (n,)."""
     if kind is Plane:
         away = ((point - rows[:, :3]) * rows[:, 3:]).sum(axis=1)
         return np.asarray(np.abs(away) / np.linalg.norm(rows[:, 3:], axis=1))
@@ -188,7 +188,7 @@ def _distances(kind: type[Object], rows: Array, point: Array) -> Array:
 
 
 def makes_caustics(material: Material) -> bool:
-    """Whether light comes by it in few directions: by glass, or by metal that is not too rough."""
+    """Return whether a material focuses light: glass, or metal that is not too rough."""
     if isinstance(material, Principled):
         is_metal = material.metallic > 0.5 and 0 < material.facet_alpha <= ROUGHEST
         return material.glass is not None or is_metal

@@ -1,7 +1,7 @@
-"""Light as a weighted sum: which layers a film keeps, and what weights a change of light means.
+"""The plan of a render: a film of light layers, and the weights that sum them to a picture.
 
-Radiance is linear in emission and is a sum over the lengths of paths. What was traced can so show
-other intensities and colours of its lamps, or fewer bounces, at the cost of a sum.
+Radiance is linear in emission and is a sum over the lengths of paths. So a traced film can show
+other intensities and colours of its lamps, or fewer bounces, at the cost of a weighted sum.
 """
 
 from collections.abc import Iterator
@@ -32,7 +32,7 @@ NONE: Weight = (0.0, 0.0, 0.0)
 
 @dataclass(frozen=True)
 class Plan:
-    """What is traced onto a film by layers, and the weights that make it what is wanted."""
+    """The scene and settings that are traced onto a film, and the weights of its layers."""
 
     facts: SceneFacts
     settings: Settings
@@ -52,12 +52,12 @@ class Plan:
 
     @cached_property
     def needs(self) -> Needs:
-        """The features of its kernel."""
+        """The features of the kernel."""
         return needs_of(self.facts, self.settings)
 
     @cached_property
     def grid(self) -> Grid | None:
-        """The grid of probes, for methods that have some."""
+        """The grid of probes; None for methods without probes."""
         return grid_of(self.scene, self.settings) if self.needs.has_probes else None
 
     @property
@@ -68,7 +68,7 @@ class Plan:
 
     @property
     def layers(self) -> int:
-        """How many layers the film keeps beside its mean: none where the mean alone suffices."""
+        """Number of layers that the film keeps in addition to its mean; 0 if the mean suffices."""
         counts = {
             "none": 0,
             "groups": len(set(layer_of_group(self.facts).values())),
@@ -77,7 +77,7 @@ class Plan:
         return counts[self.layering] if counts[self.layering] > 1 else 0
 
     def constants(self) -> dict[str, bool | int]:
-        """The prelude of a kernel that fills the layers."""
+        """Return the prelude constants of a kernel that fills the layers."""
         layer_of = layer_of_group(self.facts) if self.layers else {}
         return {
             "LAYERS": self.layers,
@@ -87,12 +87,12 @@ class Plan:
         }
 
     def relit(self, scene: Scene, settings: Settings, layering: Layering) -> "Plan | None":
-        """The same film under other weights; None if what is wanted must be traced anew."""
+        """Return this plan with weights that show the change; None if it must be traced again."""
         weights = _weights(self, scene, settings) if layering == self.layering else None
         return replace(self, weights=weights) if weights else None
 
     def cost_of(self, scene: Scene, settings: Settings, layering: Layering) -> Cost:
-        """What it costs to trace or show that instead."""
+        """Return the cost of a change to this scene, these settings and this layering."""
         if relit := self.relit(scene, settings, layering):
             return Cost.FREE if relit == self else Cost.RELIGHT
         after = self.followed_by(scene, settings, layering, self.first_sample)
@@ -102,12 +102,12 @@ class Plan:
     def followed_by(
         self, scene: Scene, settings: Settings, layering: Layering, first_sample: int
     ) -> "Plan":
-        """What to trace after an edit."""
+        """Return the plan to trace after an edit."""
         apart = after_moves(self.apart, self.scene.meshes, scene.meshes)
         return prepare(scene, settings, layering, first_sample, apart)
 
     def alone(self, length: int) -> Weights:
-        """The light of the paths of one length; the last layer holds all that are longer."""
+        """Return weights that show paths of one length; the last layer holds longer ones too."""
         shown = min(length, self.layers - 1)
         return tuple(ONE if layer == shown else NONE for layer in range(self.layers))
 
@@ -119,9 +119,10 @@ def prepare(
     first_sample: int = 0,
     apart: Apart = "repeated",
 ) -> Plan:
-    """Plan what to trace. With layers by light group, groups that are off are traced at 1.
+    """Plan what to trace.
 
-    So a lamp that is turned on needs no new samples.
+    With layers by light group, groups that are off are traced at intensity 1, so that a lamp that
+    is turned on needs no new samples.
     """
     facts, intensities = SceneFacts(scene, apart), scene.light_groups
     plan = Plan(facts, settings, layering, first_sample=first_sample)
@@ -134,17 +135,20 @@ def prepare(
 
 
 def layer_of_group(facts: SceneFacts) -> dict[str, int]:
-    """The layer of each light group that shines; groups beyond the last layer share it."""
+    """Return the layer of each light group that shines; groups beyond the last layer share it."""
     return {group: min(n, MOST_LAYERS - 1) for n, group in enumerate(facts.emissions)}
 
 
 def are_trivial(weights: Weights) -> bool:
-    """Whether the film's mean is the sum."""
+    """Return whether all weights are 1, so that the film's mean is the picture."""
     return all(weight == ONE for weight in weights)
 
 
 def _weights(film: Plan, scene: Scene, settings: Settings) -> Weights | None:
-    """What weighs a film so; None where light is wanted that it lacks. Names are none of it."""
+    """Return weights that show the scene; None if the film lacks some of its light.
+
+    Names in the scene do not matter.
+    """
     traced, wanted = less_names(film.scene, scene)
     if film.layering == "lengths":
         return _length_weights(film, settings) if traced == wanted else None
@@ -170,7 +174,7 @@ def _length_weights(film: Plan, settings: Settings) -> Weights | None:
 
 
 def _group_weights(film: SceneFacts, wanted: SceneFacts) -> Weights | None:
-    """A weight for each layer; None where a layer would need two, or light that it lacks."""
+    """Return a weight for each layer; None if a layer would need two, or light that it lacks."""
     traced, layers = layer_of_group(film), dict[int, Weight]()
     if wanted.emissions.keys() != traced.keys():
         return None
@@ -182,7 +186,7 @@ def _group_weights(film: SceneFacts, wanted: SceneFacts) -> Weights | None:
 
 
 def _group_weight(film: SceneFacts, wanted: SceneFacts, group: str) -> Weight | None:
-    """Intensity and colour wanted over those traced; None if its lamps do not change alike."""
+    """Return wanted over traced intensity and colour; None if a group's lamps change unequally."""
     tints = set(_tints(film.emissions[group], wanted.emissions[group]))
     if len(tints) != 1 or None in tints:
         return None
@@ -204,7 +208,7 @@ def _tints(traced: list[Radiance], wanted: list[Radiance]) -> Iterator[Weight | 
 
 
 def _unlit(scene: Scene) -> Scene:
-    """The scene less all that a change of light may change; which lamps there are stays."""
+    """Return the scene without anything that a change of light may change, except its lamps."""
     materials = {
         name: m.model_copy(update={"emission": ONE}) if m.emits else m
         for name, m in scene.materials.items()

@@ -1,7 +1,7 @@
-"""Where the probes of a scene stand: in the middles of the cells of a box.
+"""Positions of the probes of a scene: the middles of the cells of a box.
 
-The box is that of the scene file. Without one it holds all shapes that have bounds; and where there
-are planes, which have none, most of what paths from the camera reach.
+The scene file may give the box. Otherwise it holds all shapes that have bounds and, in scenes with
+planes, most points that paths from the camera reach.
 """
 
 import math
@@ -18,16 +18,16 @@ from glrt.settings import Settings
 Array = NDArray[np.float64]
 Counts = tuple[int, int, int]
 
-SIDE = 5  # probes along each edge, where neither scene nor settings say
+SIDE = 5  # probes along each edge, unless scene or settings give a number
 SCOUTS = 128  # paths that look for the extent of a scene
-STEPS = 4  # of each
-COMMON = (10, 90)  # percentiles of what they reach: as far again beyond them all of it counts
-BACK = 1e-3  # of a step: how far before what it has met a path goes on
-LEAST_EDGE = 1e-3  # of the longest edge of the box: flat scenes have probes over them, too
+STEPS = 4  # surfaces that each of these paths meets at most
+COMMON = (10, 90)  # percentiles of the points reached; the box ends at most one such range beyond
+BACK = 1e-3  # share of a step: a path goes on so far before the surface that it met
+LEAST_EDGE = 1e-3  # share of the longest edge of the box: flat scenes have probes above them, too
 
 
 class Grid(NamedTuple):
-    """A probe in the middle of each cell."""
+    """A box of cells, with a probe in the middle of each."""
 
     low: Array  # (3,): corner of the box, in the scene's coordinates
     cell: Array  # (3,): edges of a cell
@@ -35,22 +35,22 @@ class Grid(NamedTuple):
 
     @property
     def first(self) -> Array:
-        """Where the first probe stands."""
+        """Position of the first probe, (3,)."""
         return self.low + self.cell / 2
 
     @property
     def probes(self) -> int:
-        """How many there are."""
+        """Number of probes."""
         return math.prod(self.counts)
 
     def places(self) -> Array:
-        """Where they stand, (probes, 3): x counts fastest, z slowest."""
+        """Return the positions of the probes, (probes, 3): x varies fastest, z slowest."""
         steps = np.stack(np.meshgrid(*map(np.arange, self.counts), indexing="ij"), axis=-1)
         return self.first + steps.transpose(2, 1, 0, 3).reshape(-1, 3) * self.cell
 
 
 def grid_of(scene: Scene, settings: Settings) -> Grid:
-    """The grid that settings and scene ask for."""
+    """Return the grid of probes for a scene and its settings."""
     given = scene.probes
     side = settings.probes or SIDE
     counts = given.counts if given and not settings.probes else (side, side, side)
@@ -59,7 +59,7 @@ def grid_of(scene: Scene, settings: Settings) -> Grid:
 
 
 def extent_of(scene: Scene) -> tuple[Array, Array]:
-    """Corners of a box around what is to be lit, each (3,)."""
+    """Return the low and high corner of a box around what is to be lit, (3,) each."""
     boxes = [np.array(_bounds(thing)) for thing in scene.visible if not isinstance(thing, Plane)]
     has_planes = any(isinstance(thing, Plane) for thing in scene.visible)
     corners = [corner for box in boxes for corner in box]
@@ -83,7 +83,7 @@ def _bounds(thing: Any) -> tuple[Array, Array]:
 
 
 def _reached(scene: Scene) -> Array:
-    """What paths that scatter evenly into all directions reach from the camera, (n, 3)."""
+    """Return points that paths from the camera reach if they scatter evenly, (n, 3)."""
     random = np.random.Generator(np.random.PCG64(1))
     origins = np.tile(np.array(scene.camera.position, np.float64), (SCOUTS, 1))
     directions = _towards_the_picture(scene, random)
@@ -113,9 +113,9 @@ def _towards_the_picture(scene: Scene, random: np.random.Generator) -> Array:
 
 
 def _nearest(scene: Scene, origins: Array, directions: Array) -> Array:
-    """(n,): how far rays go to the first shape but meshes, which have bounds; inf for a miss."""
+    """Return the distances of rays to the first shape other than a mesh, (n,); inf for a miss."""
     nearest = np.full(len(origins), math.inf)
-    with np.errstate(all="ignore"):  # a plane beside the ray is infinitely far
+    with np.errstate(all="ignore"):  # a plane parallel to the ray is infinitely far
         for thing in scene.visible:
             if not isinstance(thing, Mesh):
                 row = np.array([thing.row], np.float64)

@@ -1,16 +1,16 @@
-"""Why a scene is slow, where the user can change it."""
+"""Reasons why a scene is slow that the user can change."""
 
 from glrt.core.text import counted
 from glrt.plan.facts import MOST_LAMPS, SceneFacts
 from glrt.plan.methods import CLASSIC, METHODS
 from glrt.settings import Settings
 
-MOST_PLANES = 32  # as many shapes as a kernel holds as constants
-LONG = 16  # bounces: paths that are followed further have hardly any light left
+MOST_PLANES = 32  # a kernel holds as many shapes as constants
+LONG = 16  # bounces: longer paths have hardly any light left
 
 
 def slow_because(facts: SceneFacts, settings: Settings) -> list[str]:
-    """A sentence or two for each reason: what takes the time, and what to do."""
+    """Return a text for each reason: what takes the time, and what to do."""
     found = (
         _one_by_one(facts),
         _unsampled(facts, settings),
@@ -21,7 +21,7 @@ def slow_because(facts: SceneFacts, settings: Settings) -> list[str]:
 
 
 def _one_by_one(facts: SceneFacts) -> str:
-    """Shapes that no tree holds."""
+    """Return the advice for many planes, which no BVH holds; empty for few."""
     planes = facts.shapes["plane"]
     if planes <= MOST_PLANES:
         return ""
@@ -32,7 +32,7 @@ def _one_by_one(facts: SceneFacts) -> str:
 
 
 def _unsampled(facts: SceneFacts, settings: Settings) -> str:
-    """Triangles that emit, and are too many to be sampled."""
+    """Return the advice for emitting triangles that are too many to be sampled; else empty."""
     if not METHODS[settings.method].uses_lamps or facts.bright_triangles == facts.lamp_triangles:
         return ""
     return (

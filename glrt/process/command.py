@@ -1,4 +1,4 @@
-"""The process of a command: start, standard streams, age and memory."""
+"""Standard streams, age and memory of the process of a command."""
 
 import gc
 import io
@@ -19,9 +19,10 @@ from glrt.process.signals import handled
 
 
 def open_missing() -> None:
-    """Give nothing to write to where a stream is closed.
+    """Open the null device in place of each standard stream that is closed.
 
-    Else the next file that is opened takes its number, and gets what the driver tells stderr.
+    Otherwise the next opened file would take its number, and receive what the driver writes to
+    stderr.
     """
     for number in range(3):
         try:
@@ -33,13 +34,13 @@ def open_missing() -> None:
 
 
 class Patient(io.TextIOWrapper):
-    """A stream that goes on when nobody takes what it is given: all later text goes nowhere.
+    """A stream that survives a failed write: it discards all later text.
 
-    For stderr: a terminal that is closed during a render must not cost the picture.
+    It replaces stderr: a terminal that is closed during a render must not cost the picture.
     """
 
     def write(self, text: str) -> int:
-        """Return the length of the text, whatever becomes of it."""
+        """Write a text, or discard it if that fails; returns its length in both cases."""
         try:
             return super().write(text)
         except OSError:
@@ -47,7 +48,7 @@ class Patient(io.TextIOWrapper):
             return len(text)
 
     def flush(self) -> None:
-        """Write out what is pending, if possible."""
+        """Write out the pending text, or discard it if that fails."""
         try:
             super().flush()
         except OSError:
@@ -55,7 +56,7 @@ class Patient(io.TextIOWrapper):
 
 
 def make_patient() -> None:
-    """Let no failure to write to stderr end the command, nor a letter that stdout does not hold."""
+    """Let the command survive failed writes to stderr, and characters that stdout cannot encode."""
     if isinstance(sys.stdout, io.TextIOWrapper):
         sys.stdout.reconfigure(errors="backslashreplace")
     old = sys.stderr
@@ -64,7 +65,7 @@ def make_patient() -> None:
 
 
 def report(text: str) -> None:
-    """A line on stderr, if that takes one."""
+    """Print a line to stderr; silence stderr if that fails."""
     try:
         print(text, file=sys.stderr, flush=True)
     except (OSError, ValueError):
@@ -72,18 +73,18 @@ def report(text: str) -> None:
 
 
 def fail(message: str, code: int) -> int:
-    """Tell why the command fails, in one paragraph; returns the exit code."""
+    """Report on stderr, in one paragraph, why the command fails; returns the exit code."""
     report(f"glrt: {escaped(message)}")
     return code
 
 
 def file_names(outputs: Sequence[str | Path]) -> str:
-    """Files that were written, for a message on one line."""
+    """Return the names of files for a message on one line."""
     return ", ".join(escaped(str(output)) for output in outputs)
 
 
 def print_figures(figures: dict[str, Any], outputs: Sequence[str]) -> None:
-    """A line of JSON on stdout; if that takes none, RenderError says that the files are saved."""
+    """Print a line of JSON to stdout; if that fails, RenderError says that the files are saved."""
     try:
         print(json.dumps(figures), flush=True)
     except BrokenPipeError:
@@ -97,7 +98,7 @@ def print_figures(figures: dict[str, Any], outputs: Sequence[str]) -> None:
 
 
 def settle(stream: IO[str]) -> None:
-    """Write out what is pending; silence a stream that does not take it."""
+    """Write out the pending text of a stream; silence the stream if that fails."""
     try:
         stream.flush()
     except (OSError, ValueError):
@@ -105,17 +106,17 @@ def settle(stream: IO[str]) -> None:
 
 
 def silence(stream: IO[str]) -> None:
-    """What is still to be written to a broken stream goes nowhere, so that exit is quiet."""
+    """Redirect a broken stream to the null device, so that exit reports no further error."""
     with suppress(OSError, ValueError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
 @contextmanager
 def loading() -> Iterator[None]:
-    """While the modules of a command are imported: Ctrl-C leaves at once, nothing is collected.
+    """Import the modules of a command inside: Ctrl-C exits at once, garbage collection is off.
 
-    Imports take most of the first half second, and leave nothing that is garbage; so it is not
-    looked for in them later either.
+    Imports take most of the first half second and leave no garbage. Their objects are frozen, so
+    that later collections skip them too.
     """
     was_enabled = gc.isenabled()
     gc.disable()
@@ -132,12 +133,15 @@ _IMPORTED = time.perf_counter()
 
 
 def since_start() -> float:
-    """Seconds since this process started; where the system does not tell, since the import."""
+    """Return seconds since this process started; if that is unknown, since this import."""
     return time.perf_counter() - _IMPORTED + _AGE_AT_IMPORT
 
 
 def _process_age() -> float:
-    """Linux: uptime minus start time, the 22nd word of /proc/self/stat, in clock ticks."""
+    """Return the age of this process in seconds; 0 where the system does not report it.
+
+    Linux: uptime minus start time, the 22nd word of /proc/self/stat, in clock ticks.
+    """
     try:
         from os import sysconf
 
@@ -152,7 +156,7 @@ _AGE_AT_IMPORT = _process_age()
 
 
 def peak_bytes() -> int | None:
-    """The most memory this process has held, in bytes; None where the system does not tell."""
+    """Return the peak memory of this process in bytes; None where the system does not report it."""
     try:
         from resource import RUSAGE_SELF, getrusage
     except ImportError:

@@ -1,4 +1,4 @@
-"""SIGINT, SIGTERM and SIGHUP: how they end the command, from its imports to its last file."""
+"""Handle SIGINT, SIGTERM and SIGHUP in a command, from its imports to its last file."""
 
 import signal
 import threading
@@ -13,32 +13,32 @@ from glrt.process.early import WATCHED
 
 NOTHING = "interrupted before anything was rendered"
 
-_HANGUP = getattr(signal, "SIGHUP", None)  # which Windows does not have
+_HANGUP = getattr(signal, "SIGHUP", None)  # Windows has none
 
 Handler = Callable[[int, FrameType | None], None]
 
 
 class Interrupted(KeyboardInterrupt):
-    """What ends a command that has nothing to save."""
+    """Exception that ends a command which has nothing to save when a signal arrives."""
 
     def __init__(self, number: int) -> None:
-        """`number` of the signal."""
+        """Remember the number of the signal."""
         super().__init__()
         self.number = number
 
 
 def exit_code_of(error: KeyboardInterrupt) -> int:
-    """The exit code of a command that this ended; Python's own is of SIGINT."""
+    """Return the exit code after an interruption: 128 + its signal, SIGINT if it names none."""
     return INTERRUPTED + int(getattr(error, "number", signal.SIGINT))
 
 
 @contextmanager
 def handled(handler: Handler) -> Iterator[None]:
-    """Let `handler` take the signals inside, unless they are ignored, as by nohup.
+    """Let `handler` handle the signals inside, unless they are ignored, as nohup does.
 
-    Only the main thread can; elsewhere, and where handlers are not Python's, nothing changes. Of
-    SIGHUP the first is taken alone: a shell whose terminal is closed sends one, and the system
-    another when the shell ends.
+    Only the main thread can set handlers: in other threads nothing changes, nor for handlers that
+    Python did not set. Only the first SIGHUP is handled: a shell whose terminal is closed sends
+    one, and the system sends another when the shell ends.
     """
 
     def take(number: int, frame: FrameType | None) -> None:
@@ -61,9 +61,9 @@ def handled(handler: Handler) -> Iterator[None]:
 
 @contextmanager
 def postponed() -> Iterator[None]:
-    """Let the signals wait until the end of the block: the first that came is raised anew.
+    """Delay signals until the end of the block, then raise the first that arrived again.
 
-    For compiled code that calls Python and takes for granted that no exception comes of it.
+    This protects compiled code that calls Python and assumes that the call raises no exception.
     """
     arrived: list[int] = []
     try:
@@ -75,5 +75,5 @@ def postponed() -> Iterator[None]:
 
 
 def interrupt(number: int, _frame: FrameType | None) -> NoReturn:
-    """A handler: raises Interrupted."""
+    """Signal handler: raise Interrupted."""
     raise Interrupted(number)

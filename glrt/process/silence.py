@@ -1,4 +1,4 @@
-"""What compiled libraries print by themselves, kept from the user's streams."""
+"""Keep the output of compiled libraries out of the user's streams."""
 
 import io
 import os
@@ -14,14 +14,14 @@ _ONE_AT_A_TIME = threading.Lock()
 
 @contextmanager
 def silenced() -> Iterator[None]:
-    """Nothing that is printed inside reaches stdout or stderr, from Python or from C.
+    """Discard what Python or C prints to stdout and stderr inside the block.
 
-    What was printed before does. Signals wait until the end, so that their message is seen. Other
-    threads are silenced too: do little inside.
+    Earlier output is written out first. Signals wait until the end, so that their message is
+    seen. Other threads are silenced too: do little inside.
     """
     with _ONE_AT_A_TIME, postponed(), ExitStack() as stack:
         for stream, number in ((sys.stdout, 1), (sys.stderr, 2)):
-            with suppress(OSError, ValueError, AttributeError):  # full, closed, or none at all
+            with suppress(OSError, ValueError, AttributeError):  # full, closed or missing
                 stream.flush()
             stack.enter_context(_to_nowhere(number))
         stack.enter_context(redirect_stdout(io.StringIO()))
@@ -31,7 +31,7 @@ def silenced() -> Iterator[None]:
 
 @contextmanager
 def _to_nowhere(number: int) -> Iterator[None]:
-    """Let a file descriptor lead to the null device, if it is open."""
+    """Redirect a file descriptor to the null device inside the block, if it is open."""
     try:
         kept = os.dup(number)
     except OSError:

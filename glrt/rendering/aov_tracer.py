@@ -1,6 +1,7 @@
-"""AOVs on the driver: of first surfaces and of whole paths, gathered as the picture grows.
+"""Gather AOVs on the driver while the picture grows: first surfaces, and bounces of paths.
 
-Whole observations are gathered: a picture that ends inside one has AOVs of all its samples.
+A dispatch adds whole observations (blocks of samples). A picture that ends inside an observation
+therefore has AOVs of at least all its samples.
 """
 
 import time
@@ -36,7 +37,7 @@ from glrt.settings import OF_PATHS, Aov, Settings
 
 
 class _Stage:
-    """A pass for one or two AOVs: its kernel, its film, and what its dispatches took."""
+    """One pass that gathers one or two AOVs: its kernel, its film and its dispatch schedule."""
 
     def __init__(
         self,
@@ -67,7 +68,7 @@ class _Stage:
     def work_on(
         self, context: Context, plan: Plan, scene: DeviceScene, missing: int, seconds: float
     ) -> None:
-        """One dispatch; so many observations are missing."""
+        """Run one dispatch of about `seconds` towards the `missing` observations."""
         block = plan.settings.block
         planned = self.schedule.next_dispatch(missing, seconds, self.film.samples // block)
         part = planned._replace(samples=block * planned.samples)
@@ -81,12 +82,13 @@ class _Stage:
 
 
 class AovTracer:
-    """Gathers the AOVs that settings ask for."""
+    """Gathers the AOVs that the settings request."""
 
     def __init__(self, context: Context, plan: Plan, scene: DeviceScene) -> None:
-        """Allocate films, and compile.
+        """Allocate the films and compile the kernels.
 
-        Raises SceneError if an observation is beyond the driver's loop limit, and RenderError.
+        Raises SceneError if one observation exceeds the driver's loop limit. Raises RenderError if
+        the driver refuses a kernel or has no room for a film.
         """
         self.aovs = aovs = plan.settings.gathered
         self._context, self._size, self._block = context, plan.settings.size, plan.settings.block
@@ -100,34 +102,34 @@ class AovTracer:
         self.compile_seconds = time.perf_counter() - start if aovs else 0.0
 
     def serve(self, settings: Settings) -> bool:
-        """Whether films and kernels do for other settings, if the kernel of the scene does."""
+        """Whether these films and kernels also serve `settings`, if the scene's kernel does."""
         wanted = settings.size, settings.block, settings.gathered
         return wanted == (self._size, self._block, self.aovs)
 
     def check(self, plan: Plan) -> None:
-        """SceneError if an observation of a plan is beyond the driver's loop limit."""
+        """Raise SceneError if one observation of a plan exceeds the driver's loop limit."""
         for stage in self._stages:
             _most_observations(self._context, plan, stage.aovs)
 
     def restart(self, plan: Plan) -> None:
-        """Forget everything, and begin a plan that these kernels serve."""
+        """Discard all samples and begin `plan`, which these kernels must serve."""
         for stage in self._stages:
             stage.schedule.limit(_most_observations(self._context, plan, stage.aovs))
             stage.film.restart(plan.first_sample)
 
     @property
     def samples(self) -> int:
-        """Samples of each pixel in the AOV that has fewest; 0 if there is none."""
+        """Samples per pixel of the AOV with the fewest samples; 0 without AOVs."""
         return min((stage.film.samples for stage in self._stages), default=0)
 
     def is_behind(self, samples: int) -> bool:
-        """Whether an AOV has fewer samples than a picture."""
+        """Whether an AOV has fewer than `samples` per pixel."""
         return any(stage.film.samples < samples for stage in self._stages)
 
     def work_on(
         self, plan: Plan, scene: DeviceScene, samples: int, policy: DispatchPolicy, seconds: float
     ) -> None:
-        """One dispatch towards so many samples, in about `seconds`; nothing if they are there."""
+        """Run one dispatch of about `seconds` towards `samples` per pixel, if any are missing."""
         for stage in self._stages:
             missing = -(-(samples - stage.film.samples) // self._block)
             if missing > 0:
@@ -136,14 +138,15 @@ class AovTracer:
         return None
 
     def mean(self, aov: Aov) -> moderngl.Texture | None:
-        """The texture that holds an AOV so far, in the kernel's terms; None if it is empty."""
+        """Texture of an AOV's mean in kernel numbers and coordinates; None without samples."""
         film, prefix = self._holding(aov)
         return film.sources[f"{prefix}mean"] if film else None
 
     def pixel(self, aov: Aov, x: int, y: int) -> Array | None:
-        """The mean of an AOV in one pixel, and its standard error, in the kernel's terms: (2, 3).
+        """The mean of an AOV in one pixel and its standard error, (2, 3).
 
-        (0, 0) is upper left. None if the AOV is empty, or nothing was met there.
+        Pixel (0, 0) is upper left. Object numbers and coordinates are the kernel's. None if the AOV
+        has no samples there.
         """
         film, prefix = self._holding(aov)
         if film is None:
@@ -153,14 +156,14 @@ class AovTracer:
         return np.stack([mean[:3], _standard_error(variance)]) if mean[3] else None
 
     def _holding(self, aov: Aov) -> tuple[PassFilm | None, str]:
-        """The film that holds an AOV, and the prefix of its outputs; None if it is empty."""
+        """The film that holds an AOV and the prefix of its outputs; None without samples."""
         for stage in self._stages:
             if aov in stage.aovs and stage.film.samples:
                 return stage.film, SLOTS[stage.aovs.index(aov)]
         return None, ""
 
     def read(self, scene: Scene) -> AovImages:
-        """The AOVs so far; the scene is that of the plan."""
+        """Read all AOVs back; `scene` must be the plan's scene."""
         found = {
             aov: _image(aov, stage.film, prefix, scene)
             for stage in self._stages
@@ -169,20 +172,20 @@ class AovTracer:
         return {aov: found[aov] for aov in self.aovs}
 
     def release(self) -> None:
-        """Free what the driver holds."""
+        """Release the films and give the kernels back."""
         for stage in self._stages:
             stage.release()
 
 
 def _together(aovs: tuple[Aov, ...]) -> Iterator[tuple[Aov, ...]]:
-    """Those that share a pass: two at most, and each of whole paths alone."""
+    """Yield the AOVs of each pass: surface AOVs in pairs, each AOV of whole paths alone."""
     of_surfaces = tuple(aov for aov in aovs if aov not in OF_PATHS)
     yield from (of_surfaces[first : first + 2] for first in range(0, len(of_surfaces), 2))
     yield from ((aov,) for aov in aovs if aov in OF_PATHS)
 
 
 def _most_observations(context: Context, plan: Plan, aovs: tuple[Aov, ...]) -> int:
-    """How many observations a dispatch takes; SceneError if not even one."""
+    """The most observations per dispatch; SceneError if not even one fits."""
     block, is_of_paths = plan.settings.block, aovs[0] in OF_PATHS
     iterations, certain = _rounds_of_paths(plan) if is_of_paths else _rounds_of_rays(plan)
     rounds = usable_rounds(context)
@@ -199,18 +202,18 @@ def _most_observations(context: Context, plan: Plan, aovs: tuple[Aov, ...]) -> i
 
 
 def _rounds_of_rays(plan: Plan) -> tuple[int, int]:
-    """Of the loops of one camera ray: as many as are likely, and those that are certain."""
+    """Loop rounds of one camera ray: the likely number, and the least that is certain."""
     return 1 + rounds_of_search(plan.facts), 1 + rounds_of_search(plan.facts, 0)
 
 
 def _rounds_of_paths(plan: Plan) -> tuple[int, int]:
-    """The same of a whole path."""
+    """Loop rounds of one whole path: the likely number, and the least that is certain."""
     more = rounds_for_particles(plan)
     return iterations_per_sample(plan) + more, iterations_per_sample(plan, 0) + more
 
 
 def _image(aov: Aov, film: PassFilm, prefix: str, scene: Scene) -> AovImage:
-    """One AOV read back: numbers of the kernel become those of the scene."""
+    """Read one AOV back, with object numbers and positions converted to the scene's."""
     height = film.sources["mean"].height
     mean, variance = (film.read_output(f"{prefix}{n}", 0, height) for n in ("mean", "variance"))
     if aov == "object":
@@ -231,7 +234,7 @@ def _image(aov: Aov, film: PassFilm, prefix: str, scene: Scene) -> AovImage:
 
 
 def _standard_error(variance: Array) -> Any:
-    """Of means over observations, whose number is the last channel; NaN for fewer than two."""
+    """Standard error of each mean; channel 3 of `variance` counts observations, NaN below two."""
     count = variance[..., 3:]
     with np.errstate(divide="ignore", invalid="ignore"):
         error = np.sqrt(variance[..., :3] / (count - 1))

@@ -41,24 +41,24 @@ from glrt.scene.loading.scene_files import check_loaded
 from glrt.scene.scene import Scene
 
 SLOTS = block_of("Slot")
-STILL = ("Slot", "Corner", "Triangle")  # arrays that may be large, and that a camera leaves alone
+STILL = ("Slot", "Corner", "Triangle")  # may be large; a moved camera leaves them unchanged
 
 
 class Exposed(Protocol):
-    """What a kernel adds samples to."""
+    """A film or another target that a kernel adds samples to."""
 
-    samples: int  # of each pixel so far
+    samples: int  # per pixel so far
 
     @property
     def next_sample(self) -> int:
         """The number of the sample that comes next."""
 
     def images(self) -> Images:
-        """The textures under the names of the kernel's images."""
+        """The textures by the names of the kernel's image uniforms."""
 
 
 class DeviceScene:
-    """The arrays of a scene on the driver. Constants and texts of its kernel come together here."""
+    """A scene in driver memory, with the constants and the generated text of its kernels."""
 
     def __init__(
         self,
@@ -67,9 +67,11 @@ class DeviceScene:
         options: KernelOptions,
         before: "DeviceScene | None" = None,
     ) -> None:
-        """Give the driver the scene of a plan; the tier is another if the scene is too large.
+        """Upload the scene of a plan.
 
-        The same scene as `before` is not packed again. RenderError if the driver has no room.
+        The tier is "generic" if the scene has too many shapes to bake. Data equal to that of
+        `before` is shared. Raises RenderError if the driver has no room. Raises SceneError if a
+        file of the scene was not read, or if an image exceeds the driver's limit.
         """
         self._gl, self._options, self._scene = context.gl, options, plan.scene
         start = time.perf_counter()
@@ -81,11 +83,11 @@ class DeviceScene:
         variant = options.variant.constants
         stack = {"TREE_STACK": self._tree.stack if self._tree else 0}
         self._constants = {**plan.needs.constants(), **plan.constants(), **stack, **variant}
-        self._has_tree = plan.facts.has_trees  # without one none are lost
+        self._has_tree = plan.facts.has_trees  # without one no samples are lost
         self.tier = tier_for(self._arrays, options.tier)
         self._texts = self._texts_of(self.tier)
         self._resources: dict[str, Resource] = {}
-        self._kept: dict[str, Shared] = {}  # arrays that renderers of edited scenes share
+        self._kept: dict[str, Shared] = {}  # arrays that the scenes before and after an edit share
         self._sky: ImageTexture | None = None
         self._sky_table: SkyTable | None = None
         self._texels: TexelTexture | None = None
@@ -105,32 +107,32 @@ class DeviceScene:
 
     @property
     def keeps_reservoirs(self) -> bool:
-        """Whether a sample takes up what the one before has kept."""
+        """Whether samples reuse light points that earlier samples kept in reservoirs."""
         return bool(self._constants["REUSES_OWN"] or self._constants["REUSES_NEAR"])
 
     @property
     def shaders(self) -> list[Source]:
-        """The kernel that reads this."""
+        """The shader sources of the scene's kernel."""
         return self._shaders(self._texts)
 
     def baked(self) -> list[Source] | None:
-        """A kernel that has the shapes as constants and reads the rest here; None where it is this.
+        """The shader sources of a kernel with the shapes as constants.
 
-        Or where there are too many shapes for that.
+        None if the kernel is baked already, or if the scene has too many shapes to bake.
         """
         tier = tier_for(self._arrays, "baked")
         return None if tier == self.tier else self._shaders(self._texts_of(tier))
 
     def shaders_of(self, render_pass: RenderPass) -> list[Source]:
-        """The kernel of another pass over the scene."""
+        """The shader sources of another pass over the scene."""
         return sources(self._options.pipeline, self._constants, self._texts, render_pass)
 
     def has_kernel_of(self, other: "DeviceScene") -> bool:
-        """Whether the kernel of one scene does for the other."""
+        """Whether both scenes can use the same kernel: equal constants and equal texts."""
         return (self._constants, self._texts) == (other._constants, other._texts)
 
     def has_shapes_of(self, other: "DeviceScene") -> bool:
-        """Whether constants written for one scene do for the other: to the last bit."""
+        """Whether one baked kernel serves both scenes: their shapes are equal to the last bit."""
         return all(same_rows(self._arrays[name], other._arrays[name]) for name in SHAPES)
 
     def dispatch(
@@ -142,9 +144,9 @@ class DeviceScene:
         tiles: int,
         own: Mapping[str, Resource] = {},
     ) -> None:
-        """Let a kernel add a part's samples to a film, a picture of `tiles`.
+        """Run a kernel that adds the samples of `part` to a film; the picture has `tiles` tiles.
 
-        `own` are blocks of the kernel beside those of the scene.
+        `own` are resources of the kernel in addition to those of the scene.
         """
         now = Dispatch(
             film.next_sample, part.samples, part.first, stride_of(tiles), not film.samples
@@ -163,14 +165,14 @@ class DeviceScene:
         kernel.run_tiles(part.tiles)
 
     def lost_any(self) -> bool:
-        """Whether a kernel has lost samples to the loop limit since this was last asked."""
+        """Whether kernels lost samples to the driver's loop limit since the last call."""
         if not self._has_tree or not any(self._lost.read()):
             return False
         self._lost.clear()
         return True
 
     def release(self) -> None:
-        """Free what the driver holds."""
+        """Release all OpenGL resources that are not shared."""
         own = {name: some for name, some in self._resources.items() if name not in self._kept}
         for resource in (*own.values(), *self._kept.values(), *self._images):
             if resource:
@@ -195,7 +197,7 @@ class DeviceScene:
             self._kept[SLOTS].content = self._arrays["Slot"]
 
     def _kept_for(self, arrays: Arrays, tree: SceneTree | None) -> dict[str, Shared]:
-        """What holds the same arrays already, or slots that differ in the tree of the scene."""
+        """Shared resources with equal arrays, by block; slots may differ in the scene's tree."""
         same = {
             name for name in STILL if name != "Slot" and _equal(arrays[name], self._arrays[name])
         }
@@ -209,7 +211,7 @@ class DeviceScene:
         return {name: self._kept[name].shared() for name in kept}
 
     def _has_own_trees_of(self, tree: SceneTree | None, slots: int) -> bool:
-        """Whether slots of another scene differ from these in the tree of the scene alone."""
+        """Whether the slots of another scene differ from these only in the tree of the scene."""
         return (
             tree is not None
             and self._tree is not None
@@ -220,7 +222,7 @@ class DeviceScene:
         )
 
     def _write_tree(self) -> None:
-        """Let shared slots hold the tree of this scene, in front of trees of meshes."""
+        """Write the tree of this scene into the shared slots, before the trees of meshes."""
         slots, kept = self._arrays["Slot"], self._kept.get(SLOTS)
         if kept and self._tree and kept.content is not slots:
             assert isinstance(kept.resource, moderngl.Texture)
@@ -228,7 +230,7 @@ class DeviceScene:
             kept.content = slots
 
     def _texts_of(self, tier: Tier) -> dict[str, str]:
-        """What the kernel depends on, beside constants and files."""
+        """The generated shader file, and the files that the variant replaces, by name."""
         text = scene_text(self._gl, self._arrays, tier)
         return {FILE: text, **self._options.variant.texts}
 
@@ -259,14 +261,14 @@ def _texel_texture(context: Context, plan: Plan, known: TexelTexture | None) -> 
 
 
 def _tree(facts: SceneFacts, before: DeviceScene | None) -> SceneTree | None:
-    """The tree of a scene; the one from before if nothing has moved since."""
+    """The tree of a scene: that of `before` if the objects are equal, else a new one."""
     if before and before._scene.objects == facts.scene.objects:
         return before._tree
     return tree_of(facts, before._tree if before else None)
 
 
 def _packed(facts: SceneFacts, tree: SceneTree | None, before: DeviceScene | None) -> Arrays:
-    """The arrays of a scene; nodes of spheres from before are not built again."""
+    """The arrays of a scene; equal scenes share all, equal objects share nodes of spheres."""
     if before and before._scene == facts.scene:
         return before._arrays
     is_same = before and before._scene.objects == facts.scene.objects
@@ -274,7 +276,7 @@ def _packed(facts: SceneFacts, tree: SceneTree | None, before: DeviceScene | Non
 
 
 def _equal(left: np.ndarray[Any, Any], right: np.ndarray[Any, Any]) -> bool:
-    """As `same_rows`, without copies: of a million triangles they take a tenth of a second."""
+    """Like `same_rows`, without copies, which take 0.1 s for a million triangles."""
     if left is right or left.shape != right.shape:
         return left is right
     return np.array_equal(left.view(np.uint8), right.view(np.uint8))

@@ -1,4 +1,4 @@
-"""What has been gathered: running mean and variance of each pixel, in ping-pong textures."""
+"""The film: running mean and variance of each pixel, in ping-pong textures."""
 
 from collections.abc import Iterator
 from typing import NamedTuple
@@ -14,48 +14,48 @@ from glrt.image.film_state import FilmState, error_of_mean
 from glrt.rendering.pass_film import Array, PassFilm, Size
 from glrt.rendering.pipelines import RESERVOIRS
 
-BAND_PIXELS = 1 << 17  # read at a time: 2 MiB of a texture
+BAND_PIXELS = 1 << 17  # pixels read at a time: 2 MiB of a texture
 _RESERVOIRS = read_constants(read("probes/reservoir.glsl"))
 COLUMNS, ROWS = (_RESERVOIRS[f"{name}_OF_RESERVOIR"] for name in ("COLUMNS", "ROWS"))  # texels
 
 
 class Extent(NamedTuple):
-    """How much a film holds."""
+    """The size of a film, and what it keeps per pixel."""
 
     width: int
     height: int
-    block: int = 1  # samples of an observation
+    block: int = 1  # samples per observation
     layers: int = 0
-    reservoirs: bool = False  # what the sample before has kept, for the one that comes
+    reservoirs: bool = False  # whether samples keep light points for later ones
 
 
 class Exposure(NamedTuple):
     """A film read back: arrays (H, W, 3) float32, row 0 on top."""
 
     mean: Array
-    variance: Array  # of one observation
+    variance: Array  # variance of one observation
     dropped: Array  # (H, W): samples that were not finite
-    observations: Array  # (H, W): whole ones
-    part: Array  # mean of the samples after the last whole observation
-    share: Array  # (H, W): of all finite samples, those in `part`
-    layers: Array  # (2, layers, H, W, 4): two halves, each radiance and its samples
+    observations: Array  # (H, W): complete ones
+    part: Array  # mean of the samples after the last complete observation
+    share: Array  # (H, W): fraction of the finite samples that is in `part`
+    layers: Array  # (2, layers, H, W, 4): radiance and samples, by halves of observations
 
     def state(self, samples: int) -> FilmState:
-        """All but mean and layers, with so many samples a pixel."""
+        """The film state, without mean and layers; each pixel has `samples`."""
         begun = np.rint(self.share * (samples - self.dropped))
         return FilmState(self.variance, self.dropped, self.observations, self.part, begun)
 
 
 class Film(PassFilm):
-    """RGBA32F textures for mean and variance, each twice: one is read, one written.
+    """Pairs of RGBA32F textures for mean and variance: a dispatch reads one, writes the other.
 
-    A third pair holds the observation that has begun, if one takes more than a sample; a fourth
-    the layers, if there are any, each over two halves of the observations, or reservoirs
-    (shaders_glsl/probes/reservoir.glsl).
+    If an observation takes more than one sample, another pair holds the incomplete observation.
+    Layers of light have a pair, with separate sums for two halves of the observations. Reservoirs
+    have a pair too (shaders_glsl/probes/reservoir.glsl).
     """
 
     def __init__(self, gl: moderngl.Context, extent: Extent) -> None:
-        """RenderError if the driver has no room for that."""
+        """Allocate the textures; RenderError if the driver has no room."""
         self.extent = extent
         what = f"a film of {extent.width} x {extent.height} pixels"
         super().__init__(gl, what, _outputs(extent))
@@ -67,31 +67,31 @@ class Film(PassFilm):
 
     @property
     def mean(self) -> moderngl.Texture:
-        """The texture that holds the picture so far."""
+        """The texture of the picture's mean so far."""
         return self.sources["mean"]
 
     @property
     def variance(self) -> moderngl.Texture:
-        """The texture that holds the variance of an observation so far."""
+        """The texture of the variance of one observation so far."""
         return self.sources["variance"]
 
     @property
     def layers(self) -> moderngl.Texture | None:
-        """The layers so far, side by side: over one half of the observations, below the other."""
+        """The layers side by side: one half of the observations above, the other half below."""
         return self.sources.get("layers")
 
     @property
     def resources(self) -> dict[str, Resource]:
-        """What a kernel reads of it as it likes, not of its own pixel alone."""
+        """Textures that a kernel reads at any pixel, not at its own alone."""
         held = self.sources.get("reservoirs")
         return {RESERVOIRS: held} if held else {}
 
     def at_once(self, samples: int) -> int:
-        """How many of these one dispatch can add: one where each takes up what others keep."""
+        """How many of `samples` one dispatch can add: 1 if samples read each other's reservoirs."""
         return 1 if self.extent.reservoirs else samples
 
     def read(self, rows: slice = slice(None)) -> Exposure:
-        """Copy the film, or some of its rows, into memory."""
+        """Copy the film or some of its rows into memory; RenderError if it has no samples."""
         self._check_exposed()
         first, end, _ = rows.indices(self.size[1])
         mean, variance = (self.read_output(name, first, end) for name in ("mean", "variance"))
@@ -102,21 +102,21 @@ class Film(PassFilm):
         return Exposure(*copies)
 
     def dropped(self) -> int:
-        """How many samples were not finite, of all pixels."""
+        """Number of samples that were not finite, over all pixels."""
         self._check_exposed()
         ends = (rows.indices(self.size[1])[:2] for rows in self.bands())
         counts = (self.read_output("mean", *rows)[..., 3] for rows in ends)
         return sum(int((self.samples - count).sum(dtype=np.float64)) for count in counts)
 
     def bands(self) -> Iterator[slice]:
-        """The rows of the film, some at a time: to work on them takes little memory."""
+        """Slices of rows that cover the film; each takes little memory."""
         rows = max(1, BAND_PIXELS // self.size[0])
         return (slice(first, first + rows) for first in range(0, self.size[1], rows))
 
     def write(self, samples: int, mean: Array, film_state: FilmState) -> None:
-        """Take up what another film has read: so many samples of each pixel.
+        """Continue from a picture with `samples` per pixel: write its mean and its film state.
 
-        UsageError for a film with layers, which no picture holds.
+        Raises UsageError for a film with layers, since a picture does not hold them.
         """
         if self.extent.layers:
             raise UsageError("layers of light are kept here, which a picture does not hold")
@@ -135,7 +135,7 @@ class Film(PassFilm):
             raise RenderError("the film is empty: render a sample first")
 
     def _read_begun(self, finite: Array, first: int, end: int) -> tuple[Array, Array]:
-        """The observation that has begun: its mean, and its share of so many finite samples."""
+        """Mean of the incomplete observation, and its share of the `finite` samples per pixel."""
         if self.samples % self.extent.block == 0:
             return np.zeros((*finite.shape, 3), np.float32), np.zeros_like(finite)
         begun = self.read_output("block", first, end)

@@ -1,8 +1,8 @@
-"""Keeps the first half of a render as it passes by, for a denoiser that judges itself.
+"""Keep the first half of a render on the way, for a denoiser that estimates its own error.
 
-The film goes on as ever: half of its samples are told from a copy of it, and the rest follows from
-the difference. Where a render ends is not always known, so copies are kept at each doubling too,
-and of these the one nearest to the middle serves.
+The render itself does not change. A copy of the film holds the first half of the samples; the
+difference to the final film gives the second half. The end of a render is not always known. So
+copies are also kept at each doubling of the samples, and the one nearest to the middle is used.
 """
 
 from collections.abc import Callable
@@ -18,22 +18,22 @@ from glrt.settings import Settings
 
 Filtering = Callable[[tuple[Half, Half], str], Denoised | None]
 
-KEPT = 3  # copies held at once: more than half as far as the render can be
+KEPT = 3  # the newest copies that are held: one of them is near the middle
 
 
 class Halver:
-    """The picture at some sample counts, while it is rendered on."""
+    """Keeps copies of a picture at some sample counts while its render goes on."""
 
     def __init__(self) -> None:
-        """Nothing is kept yet."""
+        """Begin without copies."""
         self._kept: list[Image] = []
 
     def restart(self) -> None:
-        """Forget everything."""
+        """Discard all copies."""
         self._kept.clear()
 
     def wants(self, settings: Settings, samples: int, target: int) -> bool:
-        """Whether the picture is to be kept as it is now, on its way to `target` samples."""
+        """Whether to keep a copy at `samples` per pixel, on the way to `target`."""
         if (
             settings.denoise == "none"
             or samples >= target
@@ -46,7 +46,7 @@ class Halver:
         return is_stop or not self._kept
 
     def next_stop(self, settings: Settings, samples: int, target: int) -> int:
-        """Up to which sample count to render before the picture is kept, `target` at most."""
+        """The sample count at which to keep the next copy; at most `target`."""
         if settings.denoise == "none" or samples >= target:
             return target
         stops = [_middle(settings, target), _doubled(settings, samples), target]
@@ -55,17 +55,18 @@ class Halver:
         return min(stop for stop in stops if stop > samples)
 
     def has_half(self, samples: int, block: int) -> bool:
-        """Whether what is kept makes halves of a picture of so many samples."""
+        """Whether a kept copy splits a picture of `samples` per pixel into two usable halves."""
         return self._first_half(samples, block) is not None
 
     def keep(self, image: Image) -> None:
-        """Keep the picture as it is now."""
+        """Keep a copy; only the newest KEPT copies are held."""
         self._kept = [*self._kept, image][-KEPT:]
 
     def finished(self, image: Image, by: Filtering = denoise) -> Image:
-        """The picture denoised if that is asked for, with the AOVs that are asked for alone.
+        """The final picture: denoised if the settings ask for it, with the requested AOVs alone.
 
-        `by` filters; where it has no result the picture is not denoised.
+        `by` filters the two halves. The picture is not denoised if `by` returns None, or if no kept
+        copy makes two halves.
         """
         assert image.recipe
         settings = image.recipe.settings
@@ -76,14 +77,14 @@ class Halver:
         return replace(image, sums=None, aovs={name: image.aovs[name] for name in settings.aov})
 
     def _first_half(self, samples: int, block: int) -> Image | None:
-        """The kept picture nearest to the middle, with observations enough on either side."""
+        """The copy nearest to the middle of `samples`, with enough observations in both halves."""
         least = LEAST * block
         fit = [k for k in self._kept if least <= k.samples <= samples - least]
         return min(fit, key=lambda kept: abs(2 * kept.samples - samples), default=None)
 
 
 def check_rest(settings: Settings, begun: int) -> None:
-    """UsageError where a picture of `begun` samples leaves too few of the settings' for a half."""
+    """Raise UsageError if too few samples follow a resumed picture of `begun` to denoise it."""
     needed = _next_whole(begun, settings.block) + LEAST * settings.block
     if settings.denoise != "none" and settings.samples < needed:
         raise UsageError(
@@ -93,17 +94,17 @@ def check_rest(settings: Settings, begun: int) -> None:
 
 
 def _next_whole(samples: int, block: int) -> int:
-    """The least sample count from `samples` on that makes a half of whole observations."""
+    """The smallest count of at least `samples` that makes a half of complete observations."""
     return max(LEAST * block, -(-samples // block) * block)
 
 
 def _middle(settings: Settings, target: int) -> int:
-    """Half of the samples, in whole observations."""
+    """Half of `target`, rounded down to complete observations."""
     return target // (2 * settings.block) * settings.block
 
 
 def _doubled(settings: Settings, samples: int) -> int:
-    """The first doubling of the least half that is more than `samples`."""
+    """The smallest half, doubled until it is more than `samples`."""
     doubled = LEAST * settings.block
     while doubled <= samples:
         doubled *= 2

@@ -1,4 +1,4 @@
-"""Two kernels of one scene: a generic one that survives edits, and a baked one for rests."""
+"""Two kernels of one scene: a generic one that survives edits, and a baked one between edits."""
 
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -34,7 +34,7 @@ class KernelSwitch:
         return self._generic is not None
 
     def use_fast(self, shaders: Sequence[Source]) -> None:
-        """Continue with a baked kernel from the next frame on; if refused, nothing changes."""
+        """Use a baked kernel from the next frame on; after a RenderError the old one stays."""
         self.schedule.drop()  # the first dispatch writes to the frame that has begun
         faster = ready(self._context, shaders, self._dispatch)
         faster.pace.learn(self.kernel.pace)
@@ -42,16 +42,16 @@ class KernelSwitch:
         self.schedule.follow(faster.pace)
 
     def release(self) -> None:
-        """Give the programs back."""
+        """Give the programs back to the context."""
         for kernel in (self.kernel, self._generic):
             if kernel:
                 self._context.programs.give_back(kernel)
 
 
 def ready(context: Context, shaders: Sequence[Source], dispatch: Dispatch) -> AnyKernel:
-    """A kernel that the driver has compiled; RenderError if it refuses it.
+    """A compiled kernel from the context's programs; RenderError if the driver refuses it.
 
-    It is the context's: who takes it gives it back to `context.programs`.
+    The caller gives it back to `context.programs`.
     """
 
     def fresh() -> AnyKernel:
@@ -70,7 +70,7 @@ def ready(context: Context, shaders: Sequence[Source], dispatch: Dispatch) -> An
 
 @contextmanager
 def taken(context: Context, shaders: Sequence[Source], dispatch: Dispatch) -> Iterator[AnyKernel]:
-    """A kernel as `ready` gives it, for as long as it is needed."""
+    """Lend a kernel of `ready` for the duration of a with statement."""
     kernel = ready(context, shaders, dispatch)
     try:
         yield kernel

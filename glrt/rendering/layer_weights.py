@@ -1,4 +1,4 @@
-"""A film weighed: the picture that other intensities of its lamps give, or particles beside it."""
+"""Weighted sums of film layers: the picture under other lamp intensities, with particles."""
 
 from typing import NamedTuple
 
@@ -18,11 +18,11 @@ _VERSION = "410 core"
 
 
 class Reading(NamedTuple):
-    """What a film holds of one pixel, under weights."""
+    """One pixel of a film under weights."""
 
     radiance: Array  # (3,) float32
     stderr: Array  # (3,) float32, NaN below two observations
-    samples: int  # that were finite
+    samples: int  # finite ones
 
 
 def read_row(film: Film, weights: Weights, y: int) -> tuple[Exposure, Array, Array]:
@@ -32,9 +32,10 @@ def read_row(film: Film, weights: Weights, y: int) -> tuple[Exposure, Array, Arr
 
 
 def mixed(film: Film, weights: Weights) -> tuple[Array, Array, FilmState | None]:
-    """Radiance and its standard error, (H, W, 3) float32 each, of a film under weights.
+    """Radiance and standard error under weights, (H, W, 3) float32 each, and the film state.
 
-    And what the film has gathered beside them: None if they do not tell its mean, or not alone.
+    The film state is None if the film has layers, or if the weights are not all 1: no render can
+    continue from that picture.
     """
     width, height = film.size
     radiance, error = np.empty((2, height, width, 3), np.float32)
@@ -49,9 +50,10 @@ def mixed(film: Film, weights: Weights) -> tuple[Array, Array, FilmState | None]
 
 
 def gathered(film: Film, weights: Weights) -> FilmState | LayerSums:
-    """What a denoiser needs of a film under weights, from which no render goes on.
+    """The statistics of a film under weights that a denoiser needs; no render continues from them.
 
-    The state of what is shown; of weighed layers, sums over halves of the observations.
+    They are the film state, scaled by the weight. For weighted layers they are sums over two halves
+    of the observations.
     """
     width, height = film.size
     factors = np.array(weights, np.float32)
@@ -68,11 +70,11 @@ def gathered(film: Film, weights: Weights) -> FilmState | LayerSums:
 
 
 def _mixed(film: Exposure, weights: Weights) -> tuple[Array, Array]:
-    """The same of some rows.
+    """Radiance and standard error of some rows under weights, (H, W, 3) each.
 
-    Errors of layers are correlated. So the error of a sum is taken from the sums over two halves
-    of the observations, a and b: |a - b| sqrt(n_a n_b) / n. A pixel's is rough, of one degree of
-    freedom; that of the picture is not.
+    Errors of layers are correlated. So the error of a sum is taken from the means a and b over two
+    halves of the observations: |a - b| sqrt(n_a n_b) / n. It has one degree of freedom, so it is
+    rough for one pixel, but not for the picture.
     """
     if are_trivial(weights):
         return film.mean, standard_error(film)
@@ -92,7 +94,7 @@ def _sums(film: Exposure, factors: Array) -> LayerSums:
 
 
 class Mixer:
-    """The same sum on the driver, for the display pass."""
+    """Computes the weighted sum on the driver, for the display pass."""
 
     def __init__(self, gl: moderngl.Context) -> None:
         """Nothing is compiled before it is needed."""
@@ -103,9 +105,9 @@ class Mixer:
     def draw(
         self, film: Film, weights: Weights, particles: moderngl.Texture | None = None
     ) -> moderngl.Texture:
-        """The film's mean, or a texture like it, valid until the next call.
+        """The film's mean, or a texture of its weighted sum; valid until the next call.
 
-        To it `particles` are added, if there are any.
+        The light of `particles` is added, if given.
         """
         is_plain = are_trivial(weights)
         if is_plain and not particles:
@@ -128,7 +130,7 @@ class Mixer:
         return self._canvas.texture
 
     def release(self) -> None:
-        """Free what the driver holds."""
+        """Release all OpenGL resources."""
         self._canvas.release()
         if self._program:
             self._quad.release()

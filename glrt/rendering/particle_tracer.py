@@ -1,7 +1,7 @@
-"""Particles on the driver: a film of what they bring, gathered as the picture grows.
+"""Particles on the driver: a film of the light that they bring, gathered as the picture grows.
 
-For each observation of the picture there is one of particles: work groups of them, added up in
-fixed point, and then put onto the film as one value of each pixel.
+Each observation of the picture has one observation of particles. Work groups of particles add
+their light in fixed point. Then the film gets the sums, as one value per pixel.
 """
 
 import time
@@ -38,15 +38,15 @@ PIXEL = 24  # bytes of a pixel: two words of each channel
 
 
 class Losses(NamedTuple):
-    """Particles whose light is not on the film, or not all of it."""
+    """Numbers of particles whose light is missing from the film, at least in part."""
 
-    clipped: int  # brought a pixel more than its sum takes at once
-    refused: int  # brought what is not finite
+    clipped: int  # brought more light to a pixel than its sum takes at once
+    refused: int  # brought light that is not finite
 
 
 @dataclass
 class _Numbered:
-    """The film of particles, as a dispatch of them sees it: with their numbers."""
+    """The particle film as a dispatch sees it, with the number of its first sample."""
 
     film: PassFilm
     next_sample: int
@@ -57,12 +57,12 @@ class _Numbered:
 
 
 class ParticleTracer:
-    """Gathers what particles bring to the picture of a plan: in all, and beside it by layers."""
+    """Gathers the light of a plan's particles: in total, and for each layer."""
 
     def __init__(self, context: Context, plan: Plan, scene: DeviceScene) -> None:
-        """Allocate a film and a sum, and compile.
+        """Allocate a film and a buffer of sums, and compile the kernels.
 
-        RenderError if the driver has no room for them.
+        Raises RenderError if the driver has no room for them.
         """
         self._context, self._plan, self._scene = context, plan, scene
         self._block, size = plan.settings.block, plan.settings.size
@@ -70,8 +70,8 @@ class ParticleTracer:
         self._rounds, most = _limits(context, plan)
         rounds = iterations_per_sample(plan) + rounds_for_particles(plan)
         self._schedule = Schedule(self._groups, most, rounds)
-        self._begun = 0  # samples of the observation that is not complete
-        self._is_cleared = False  # whether the sums hold this observation alone
+        self._begun = 0  # samples of the incomplete observation
+        self._is_cleared = False  # whether the sums were cleared for this observation
         self._lost = Losses(0, 0)
         start = time.perf_counter()
         with ExitStack() as refused:
@@ -92,17 +92,17 @@ class ParticleTracer:
         self.restart(plan.first_sample)
 
     def restart(self, first_sample: int) -> None:
-        """Forget everything."""
+        """Discard all light, and begin at sample number `first_sample`."""
         self.film.restart(first_sample)
         self._lost = Losses(0, 0)
         self._begin()
 
     def is_behind(self, samples: int) -> bool:
-        """Whether a picture of so many samples lacks an observation of particles."""
+        """Whether a picture of `samples` per pixel lacks an observation of particles."""
         return self.film.samples < observations_of(samples, self._block)
 
     def work_on(self, policy: DispatchPolicy, seconds: float) -> None:
-        """One dispatch of the observation that has begun, in about `seconds`."""
+        """Run one dispatch of the current observation, in about `seconds`."""
         if not self._is_cleared:
             self._sums.clear()
             self._is_cleared = True
@@ -122,10 +122,10 @@ class ParticleTracer:
     def added_to(
         self, radiance: Array, stderr: Array, weights: Weights, first: int = 0
     ) -> tuple[Array, Array, ParticleFilm]:
-        """Rows of a picture under weights, from `first` on, with what particles bring there.
+        """Rows of a picture plus the light of particles, from row `first` on, under weights.
 
-        They and their standard error are (H, W, 3) float32. And the two films apart. Layers are of
-        different particles: their variances add.
+        Returns radiance and standard error, (H, W, 3) float32 each, and the two films separately.
+        Layers come from different particles, so their variances add.
         """
         height, width, _ = radiance.shape
         read = (self.film.read_output(name, first, first + height) for name in PARTICLES.outputs)
@@ -143,7 +143,7 @@ class ParticleTracer:
         return *summed(film, stderr, self.film.samples), film
 
     def resume(self, samples: int, film: ParticleFilm) -> None:
-        """Take up what another film has read, of a picture with so many samples."""
+        """Continue from the particle film of a picture with `samples` per pixel."""
         self._begin()
         self.film.samples = observations_of(samples, self._block)
         count = np.full((*film.mean.shape[:2], 1), self.film.samples, np.float32)
@@ -153,23 +153,23 @@ class ParticleTracer:
 
     @property
     def losses(self) -> Losses:
-        """Of all that were linked to the camera since the beginning."""
+        """Losses among the particles that were linked to the camera, since the last restart."""
         return self._lost
 
     def release(self) -> None:
-        """Free what the driver holds."""
+        """Release all OpenGL resources."""
         self.film.release()
         self._sums.release()
         for kernel in (self._kernel, self._fold):
             self._context.programs.give_back(kernel)
 
     def _begin(self, most_samples: int | None = None) -> None:
-        """Begin an observation anew."""
+        """Begin the current observation again; `most_samples` limits its dispatches."""
         self._begun, self._is_cleared = 0, False
         self._schedule.drop() if most_samples is None else self._schedule.limit(most_samples)
 
     def _end(self) -> None:
-        """An observation is complete."""
+        """Add the complete observation to the film, and count its losses."""
         for part in whole_frame(self._block, self._tiles):
             self._dispatch_fold(self._fold, part)
         self.film.advance(1)
@@ -190,7 +190,7 @@ class ParticleTracer:
 
 
 def particles_for(context: Context, plan: Plan, scene: DeviceScene) -> ParticleTracer | None:
-    """What gathers the particles of a plan, if there are any."""
+    """The tracer for the particles of a plan; None if caustics are off."""
     return None if plan.settings.caustics == "off" else ParticleTracer(context, plan, scene)
 
 
@@ -206,7 +206,7 @@ def _block_of_sums(context: Context, what: str, size: int) -> moderngl.Buffer:
 
 
 def _limits(context: Context, plan: Plan) -> tuple[int | None, int]:
-    """How many rounds of loops a dispatch may take, None: any; and how many particles a lane."""
+    """Loop rounds per dispatch (None: no limit), and the most particles per lane."""
     iterations = iterations_per_sample(plan) + rounds_for_particles(plan)
     rounds = usable_rounds(context)
     block = plan.settings.block

@@ -1,7 +1,7 @@
-"""What a pass adds samples to: named outputs, each two textures, and how many samples they hold.
+"""The film of a pass: outputs of two textures each, by name, and the number of their samples.
 
-A pass reads the one texture and writes the other; then they swap. A frame takes several dispatches;
-what has been written of one that is not complete is never read.
+A pass reads one texture and writes the other; then they swap. A frame takes several dispatches.
+The output of an incomplete frame is never read.
 """
 
 from contextlib import ExitStack
@@ -18,14 +18,14 @@ Size = tuple[int, int]  # width and height
 
 
 class PassFilm:
-    """RGBA32F textures by the names of their outputs.
+    """Pairs of RGBA32F textures, by the names of their outputs.
 
-    Its samples are those from number `first_sample` on: 0, unless it holds a part of a render.
+    The samples are numbered from `first_sample`: 0, unless the film holds a part of a render.
     """
 
     def __init__(self, gl: moderngl.Context, what: str, sizes: dict[str, Size]) -> None:
-        """`what` is told if there is no room for them: RenderError."""
-        self.samples = self.first_sample = 0  # of each pixel
+        """Allocate the textures; RenderError names `what` if the driver has no room."""
+        self.samples = self.first_sample = 0  # per pixel
         self._gl, self._what = gl, what
         self._pairs: list[dict[str, moderngl.Texture]] = [{}, {}]
         try:
@@ -37,7 +37,7 @@ class PassFilm:
             raise
 
     def images(self) -> dict[str, moderngl.Texture]:
-        """The textures under the names of the kernel's images: `source_NAME` and `target_NAME`."""
+        """The textures by the names of the kernel's images: `source_NAME` and `target_NAME`."""
         return {
             f"{side}_{name}": texture
             for side, textures in zip(("source", "target"), self._pairs, strict=True)
@@ -46,15 +46,15 @@ class PassFilm:
 
     @property
     def next_sample(self) -> int:
-        """The number of the sample that comes next, by which its random numbers are drawn."""
+        """The number of the next sample, which determines its random numbers."""
         return self.first_sample + self.samples
 
     def restart(self, first_sample: int = 0) -> None:
-        """Forget everything. The textures keep what they hold: the first dispatch ignores it."""
+        """Discard all samples; the next dispatch ignores what the textures hold."""
         self.samples, self.first_sample = 0, first_sample
 
     def advance(self, samples: int) -> None:
-        """A frame is complete: what was target becomes source."""
+        """Complete a frame of `samples` per pixel: the target textures become the sources."""
         self._pairs.reverse()
         self.samples += samples
 
@@ -64,7 +64,7 @@ class PassFilm:
         return self._pairs[0]
 
     def read_output(self, name: str, first: int, end: int) -> Array:
-        """Rows of a source, (rows, width, 4): by a framebuffer, of which a part can be read."""
+        """Rows `first` to `end` of a source, (rows, width, 4), read in part by a framebuffer."""
         texture = self._pairs[0][name]
         rows = self._gl.framebuffer([texture])
         part = (0, first, texture.width, end - first)
@@ -73,7 +73,7 @@ class PassFilm:
         return np.frombuffer(data, np.float32).reshape(end - first, texture.width, 4)
 
     def release(self) -> None:
-        """Free the textures."""
+        """Release the textures."""
         for pair in self._pairs:
             for texture in pair.values():
                 texture.release()

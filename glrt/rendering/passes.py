@@ -1,9 +1,9 @@
-"""What a renderer runs over the pixels of a picture: a pass is a value.
+"""Passes over the pixels of a picture, as values.
 
-A pass is a kernel in each of the two pipelines, and the outputs that it adds samples to. An output
-is a texture of which the kernel reads the last frame, `source_NAME`, and writes the next,
-`target_NAME`. OpenGL 4.3 promises eight images, so a pass has four outputs at most; what needs more
-takes another pass.
+A pass names a kernel for each of the two pipelines, and the outputs that it adds samples to. An
+output has two textures: the kernel reads the last frame, `source_NAME`, and writes the next frame,
+`target_NAME`. OpenGL 4.3 promises eight images, so a pass has at most four outputs; more outputs
+take another pass.
 """
 
 from collections.abc import Mapping, Sequence
@@ -27,7 +27,7 @@ class RenderPass(NamedTuple):
 
     shaders: Mapping[Resolved, tuple[str, ...]]  # entry files
     outputs: tuple[str, ...]
-    constants: Constants = NO_CONSTANTS  # beside those of the scene
+    constants: Constants = NO_CONSTANTS  # in addition to those of the scene
 
 
 RADIANCE = RenderPass(
@@ -60,7 +60,7 @@ def aov_number(aov: Aov) -> int:
 
 
 def aov_pass(aovs: Sequence[Aov]) -> RenderPass:
-    """The pass that fills one or two AOVs, which share their camera rays; one of paths alone."""
+    """The pass that gathers one or two AOVs of surfaces together, or one of whole paths."""
     if aovs[0] in OF_PATHS:
         return BOUNCES
     numbers = [*map(aov_number, aovs), AOV_NUMBERS["NO_AOV"]]

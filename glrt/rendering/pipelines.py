@@ -19,15 +19,15 @@ from glrt.rendering.passes import RADIANCE, RenderPass, Resolved
 # reads them. Materials are never written: a colour is to change without compiling.
 Tier = Literal["generic", "baked"]
 ENVIRONMENT = "environment_image"  # the texture of the image of the sky
-SKY_TREE = "environment_tree"  # that of the tree by which it is sampled
-RESERVOIRS = "held_reservoirs"  # that of what earlier samples keep for later ones
-TEXELS = "map_texels"  # that of the images on surfaces
+SKY_TREE = "environment_tree"  # the texture of the tree that samples this image
+RESERVOIRS = "held_reservoirs"  # the texture of what samples keep for later ones
+TEXELS = "map_texels"  # the texture of all images on surfaces
 MOST_BAKED = 32  # shapes
-SHAPES = (*NUMBERED, "Target", "Sides")  # arrays that follow from them alone
+SHAPES = (*NUMBERED, "Target", "Sides")  # arrays that follow from the shapes alone
 
 
 class Variant(NamedTuple):
-    """A kernel that is not glrt's own, for experiments: constants and whole files replaced."""
+    """Changes to glrt's kernel, for experiments: replaced constants and whole shader files."""
 
     constants: Mapping[str, bool | int] = {}
     texts: Mapping[str, str] = {}  # by the name of the shader file
@@ -37,7 +37,7 @@ PLAIN = Variant()
 
 
 class KernelOptions(NamedTuple):
-    """How a scene is to reach the kernel."""
+    """Pipeline, tier and variant of the kernels of a scene."""
 
     pipeline: Resolved
     tier: Tier
@@ -45,7 +45,7 @@ class KernelOptions(NamedTuple):
 
 
 def resolve(wanted: Pipeline, context: Context) -> Resolved:
-    """The pipeline for a context: compute where it can be. ContextError if it is wanted in vain."""
+    """The pipeline for a context: compute where possible; ContextError if it cannot be had."""
     if wanted == "compute" and not context.has_compute:
         raise ContextError(
             f"{context.renderer} has no compute shaders: they need OpenGL 4.3, and it offers "
@@ -57,18 +57,18 @@ def resolve(wanted: Pipeline, context: Context) -> Resolved:
 
 
 def tier_for(arrays: Arrays, wanted: Tier) -> Tier:
-    """The tier that a scene gets: not baked if it has more than MOST_BAKED shapes."""
+    """The tier that a scene gets: "generic" if it has more than MOST_BAKED shapes."""
     shapes = sum(len(arrays[struct]) for struct in NUMBERED)
     return "generic" if wanted == "baked" and shapes > MOST_BAKED else wanted
 
 
 def scene_text(gl: moderngl.Context, arrays: Arrays, tier: Tier) -> str:
-    """The shader file that is written for a scene."""
+    """The generated shader file that declares the arrays of a scene."""
     return text_of(arrays, tier, uniform_bytes(gl))
 
 
 def text_of(arrays: Arrays, tier: Tier, most_bytes: int) -> str:
-    """The same for a driver whose uniform blocks hold so many bytes."""
+    """Like `scene_text`, for a driver whose uniform blocks hold `most_bytes` bytes."""
     return scene_arrays(arrays, NUMBERED, _constant(tier), most_bytes) + _SKY
 
 
@@ -96,7 +96,7 @@ vec4 texel_at(int index) {{
 
 
 def upload(gl: moderngl.Context, arrays: Arrays, tier: Tier) -> dict[str, Resource]:
-    """The arrays as that file declares them, by the names of its blocks and textures."""
+    """Upload the arrays as the generated file declares them, by block and texture name."""
     return dict(struct_arrays.upload(gl, arrays, _constant(tier), uniform_bytes(gl)))
 
 
@@ -110,12 +110,12 @@ def sources(
     texts: Mapping[str, str],
     render_pass: RenderPass = RADIANCE,
 ) -> list[Source]:
-    """The shaders of a pass for a scene; `texts` stand for shader files, by name."""
+    """The shaders of a pass for a scene; `texts` replace shader files, by name."""
     version = "430 core" if pipeline == "compute" else "410 core"
     prelude = {**constants, **render_pass.constants}
     return [Source(file, prelude, version, texts) for file in render_pass.shaders[pipeline]]
 
 
 def compiled(gl: moderngl.Context, shaders: Sequence[Source]) -> Kernel | FragmentKernel:
-    """The kernel; RenderError tells the driver's message by shader file and line."""
+    """Compile a kernel; RenderError gives the driver's message by shader file and line."""
     return Kernel(gl, *shaders) if len(shaders) == 1 else FragmentKernel(gl, *shaders)

@@ -1,4 +1,4 @@
-"""The probes that a picture needs next, if its method has any."""
+"""Supply the light probes that the next samples of a picture need."""
 
 import math
 
@@ -10,15 +10,15 @@ from glrt.plan.plan import Plan
 from glrt.rendering.device_scene import DeviceScene
 from glrt.rendering.probe_tracer import ProbeTracer
 
-HYSTERESIS = 0.97  # of live probes: half of a step of light is in them after 22.8 updates
+HYSTERESIS = 0.97  # of live probes: after 22.8 updates they hold half of a change of light
 
 
 class ProbeSupply:
-    """For each observation a set of probes, warmed up before its first sample.
+    """Supplies a set of probes for each observation, warmed up before its first sample.
 
-    With a hysteresis the probes of the picture before go on instead: one update for each picture
-    that begins, of which they keep that share of what they hold. Then the picture hangs on those
-    before it, and its error is not known.
+    With a hysteresis, probes continue from the picture before instead. Each picture updates them
+    once, and they keep that fraction of their content. Such a picture depends on earlier ones, and
+    its error is unknown.
     """
 
     def __init__(
@@ -29,7 +29,7 @@ class ProbeSupply:
         before: "ProbeSupply | None" = None,
         hysteresis: float | None = None,
     ) -> None:
-        """With the maps of `before` where probes go on; RenderError if there is no room."""
+        """Take over the maps of `before` if probes continue; RenderError if there is no room."""
         self._plan, self._block = plan, plan.settings.block
         self.hysteresis, self._is_due = hysteresis, True
         self.tracer: ProbeTracer | None = None
@@ -42,16 +42,16 @@ class ProbeSupply:
 
     @property
     def resources(self) -> dict[str, Resource]:
-        """What kernels read of them."""
+        """Textures of the probes for kernels; empty if the method has no probes."""
         return self.tracer.resources if self.tracer else {}
 
     @property
     def lag(self) -> float:
-        """The share of what probes hold that is from before the last edit of light or objects."""
+        """Share of the probes' content from before the last edit of light or objects, 0 to 1."""
         return self._lag
 
     def check(self) -> None:
-        """UsageError if the picture cannot be rendered again."""
+        """Raise UsageError if the picture depends on earlier ones and cannot be rendered again."""
         if self.tracer and self.hysteresis is not None:
             raise UsageError(
                 "Probes are live: the picture hangs on those before it, and cannot be rendered "
@@ -59,17 +59,17 @@ class ProbeSupply:
             )
 
     def restart(self) -> None:
-        """Another picture of the same scene: probes that go on are updated once more."""
+        """Begin another picture of the same scene: live probes are due for one more update."""
         self._is_due = True
 
     def lack(self, sample: int) -> bool:
-        """Whether a sample, by its number, has to wait for its probes."""
+        """Whether sample number `sample` has to wait for its probes."""
         if self.tracer and self.hysteresis is not None and self.tracer.is_lit:
             return self._is_due and self.tracer.is_used
         return self.tracer is not None and not self.tracer.has_set(sample // self._block)
 
     def work_on(self, sample: int, seconds: float = math.inf) -> None:
-        """Warm the set of a sample up, for about so long; or update probes that go on."""
+        """Warm up the set of a sample for about `seconds`, or update live probes once."""
         if self.tracer and self.hysteresis is not None and self.tracer.is_lit:
             if self._is_due:
                 self.tracer.follow(self.hysteresis)
@@ -78,16 +78,16 @@ class ProbeSupply:
             self.tracer.work_on(sample // self._block, seconds)
 
     def together(self, sample: int, wanted: int) -> int:
-        """Of so many samples from this one on, those that have the same set."""
+        """How many of `wanted` samples from number `sample` on share one set of probes."""
         return min(wanted, self._block - sample % self._block) if self.tracer else wanted
 
     def release(self, after: "ProbeSupply | None" = None) -> None:
-        """Free what the driver holds, except maps that another one has taken over."""
+        """Release all OpenGL resources, except maps that `after` has taken over."""
         if self.tracer:
             self.tracer.release(after.tracer if after else None)
 
 
 def _are_lit_alike(plan: Plan, before: Plan) -> bool:
-    """Whether two scenes have the same light, wherever they are seen from."""
+    """Whether two plans have equal scenes, apart from the camera, and equal bounces."""
     seen = before.scene.model_copy(update={"camera": plan.scene.camera})
     return seen == plan.scene and plan.settings.bounces == before.settings.bounces

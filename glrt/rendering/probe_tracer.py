@@ -1,9 +1,9 @@
-"""Probes on the driver: maps of distances, and of light for one set of probes at a time.
+"""Light probes on the driver: maps of distances, and of light for one set of probes at a time.
 
-Where probes stand and how far they see follows from the scene alone. Light comes in sets: for each
-observation of the picture there is one from a seed of its own, so that its error tells the noise of
-probes, too. A set hangs on its number alone: it is warmed up from nothing, and then stays as it is.
-While edits follow one another, probes may also go on from what those of the picture before hold.
+The places of probes and the distances that they see follow from the scene alone. Light comes in
+sets: each observation of the picture has one, from a seed of its own, so that the picture's error
+includes the noise of probes. A set depends on its number alone: it is warmed up from nothing, and
+then does not change. During a series of edits, probes may continue from the picture before.
 """
 
 import time
@@ -38,17 +38,17 @@ from glrt.rendering.passes import PROBE_DISTANCES, PROBE_LIGHT, PROBE_PLACES, PR
 from glrt.rendering.probe_weights import WEIGHTS
 from glrt.rendering.schedule import DispatchRange
 
-RAYS = 64  # of each probe in an update
-AVERAGED = 16  # updates at the end of a warm-up, of which the mean is taken
+RAYS = 64  # per probe and update
+AVERAGED = 16  # updates at the end of a warm-up that are averaged
 UPDATES = len(WEIGHTS) + AVERAGED
-LOOKS = 24  # updates by which distances are found
-PUSHED = 4  # times that probes are moved before these
+LOOKS = 24  # updates that find distances
+PUSHED = 4  # times that probes are moved before that
 GROUP = 64  # lanes of a work group
-FOLLOWING = 1 << 30  # the number of probes that go on: beyond that of any set
+FOLLOWING = 1 << 30  # the set number of live probes: beyond that of any other set
 
 _MAPS = {"probe_light": LIGHT_MAP, "probe_distances": DISTANCE_MAP, "probe_places": 1}
 _TEXELS = {name: side * side for name, side in _MAPS.items()}
-_PASSES = {  # by what they write
+_PASSES = {  # by the name of their target
     "target_rays": PROBE_RAYS,
     "probe_light": PROBE_LIGHT,
     "probe_distances": PROBE_DISTANCES,
@@ -57,13 +57,13 @@ _PASSES = {  # by what they write
 
 
 def kept_light(update: int) -> float:
-    """The share of a map of irradiance that an update keeps while a set warms up."""
+    """The fraction of the irradiance map that an update keeps while a set warms up."""
     averaged = update - len(WEIGHTS)
     return 1 - WEIGHTS[update] if averaged < 0 else averaged / (averaged + 1)
 
 
 class _Update:
-    """What a pass over probes reads and writes, beside the scene."""
+    """Stands in for a film in a pass over probes: its images alone."""
 
     next_sample, samples = 0, 1
 
@@ -76,14 +76,14 @@ class _Update:
 
 @dataclass
 class Seconds:
-    """That probes have taken so far."""
+    """Time that probes have taken so far, in seconds."""
 
-    look: float = 0.0  # to be placed and to find what they see
-    update: float = 0.0  # for light
+    look: float = 0.0  # to place probes and find the distances that they see
+    update: float = 0.0  # to gather their light
 
 
 class ProbeTracer:
-    """Gathers the sets of probes of a plan, each by its number."""
+    """Computes sets of light probes for a plan; each set has a number."""
 
     def __init__(
         self,
@@ -93,20 +93,20 @@ class ProbeTracer:
         before: "ProbeTracer | None" = None,
         follows: bool = False,
     ) -> None:
-        """Allocate maps, and compile.
+        """Allocate the maps and compile the kernels.
 
-        With `follows` they go on with the maps of `before`, if these have light for as many probes.
-        RenderError if the driver has no room for them.
+        With `follows`, take over the maps of `before` if they hold light for as many probes. Raises
+        RenderError if the driver has no room.
         """
         assert scene.grid
         self._context, self._scene, self.grid = context, scene, scene.grid
-        # What they light scatters once more on its way to the camera, or twice.
+        # The light of probes scatters once more on its way to the camera; with a gather, twice.
         shorter = max(plan.settings.bounces - 1 - METHODS[plan.settings.method].gathers, 0)
         settings = plan.settings.model_copy(update={"bounces": shorter})
         self._plan, self.is_used = replace(plan, settings=settings), shorter > 0
         self._sees, self._set, self._done = False, -1, 0
         self.seconds = Seconds()
-        self._is_placed = self.goes_on = False  # goes on: with what other probes hold
+        self._is_placed = self.goes_on = False  # goes_on: with the maps of other probes
         start = time.perf_counter()
         with ExitStack() as refused:
             if before and follows and before.is_lit and before.grid.counts == self.grid.counts:
@@ -126,26 +126,26 @@ class ProbeTracer:
 
     @property
     def resources(self) -> dict[str, Resource]:
-        """The maps as kernels name them that read them."""
+        """The maps by the names under which kernels read them."""
         return dict(self.maps)
 
     @property
     def is_lit(self) -> bool:
-        """Whether the maps hold light of all bounces, of whichever set."""
+        """Whether the maps hold light of all bounces, from any set of probes."""
         return not self.is_used or self._done >= UPDATES
 
     def has_set(self, number: int) -> bool:
-        """Whether the maps hold a set of probes, warmed up."""
+        """Whether the maps hold the set `number`, warmed up."""
         return not self.is_used or (self._set == number and self._done == UPDATES)
 
     def work_on(self, number: int, seconds: float) -> None:
-        """Updates of a set, for about so long."""
+        """Update the set `number` until it is warmed up, or for about `seconds`."""
         start = time.perf_counter()
         while not self.has_set(number) and time.perf_counter() - start < seconds:
             self.update(number)
 
     def update(self, number: int, kept: float | None = None) -> None:
-        """One update of a set; `kept`: the share of what its maps hold, unless it warms up."""
+        """Update a set once; `kept` is the share of its light to keep (None: as it warms up)."""
         if not self._sees:
             self._look()
         if self._set != number:
@@ -162,9 +162,9 @@ class ProbeTracer:
         self.seconds.update += time.perf_counter() - start
 
     def follow(self, hysteresis: float) -> None:
-        """One update of what the maps hold, of which they keep a share: light, and distances.
+        """Update light and distances of live probes once; they keep the fraction `hysteresis`.
 
-        Places are found anew once: objects, or the room that the camera is in, may be others.
+        Places are found again if objects, or the room of the camera, may have changed.
         """
         if not self._is_placed:
             self._place()
@@ -173,9 +173,9 @@ class ProbeTracer:
         self.update(FOLLOWING, hysteresis)
 
     def count(self) -> tuple[float, float]:
-        """What the rays of a set count, and those of places and distances, if the kernel counts.
+        """Rays of the warm-up of one set, and rays that find places and distances, as counted.
 
-        That is a Variant with COUNT_RAYS; of another, what is told means nothing.
+        The kernel must be a Variant with COUNT_RAYS; the numbers of any other mean nothing.
         """
         self._look()
         once = (PUSHED + 1 + LOOKS) * self._counted()
@@ -183,12 +183,12 @@ class ProbeTracer:
         return UPDATES * self._counted() * self.is_used, once
 
     def _counted(self) -> float:
-        """By the rays of the last update."""
+        """The sum of what the rays of the last update have counted."""
         rays = np.frombuffer(self._rays.read(), np.float32).reshape(-1, 4)
         return float(rays[:, 0].sum(dtype=float))
 
     def release(self, after: "ProbeTracer | None" = None) -> None:
-        """Free what the driver holds, except maps that another one has taken over."""
+        """Release all OpenGL resources, except maps that `after` has taken over."""
         self._block.release()
         self._rays.release()
         if not after or after.maps is not self.maps:
@@ -198,13 +198,13 @@ class ProbeTracer:
             self._context.programs.give_back(kernel)
 
     def _go_on(self, before: "ProbeTracer") -> None:
-        """With what the probes of another scene hold; nothing is written yet."""
+        """Take over the maps of another scene's probes; nothing is written yet."""
         self.maps, self._sees = before.maps, before._sees
         self._is_placed = before._is_placed and _stand_alike(self, before)
         self._set, self._done, self.goes_on = FOLLOWING, before._done, True
 
     def _look(self) -> None:
-        """Move probes out of solids, and find what they see: the same for every seed."""
+        """Move probes out of solids and find the distances they see: the same for every seed."""
         start = time.perf_counter()
         self._place()
         _clear(self.maps["probe_distances"])
@@ -215,7 +215,7 @@ class ProbeTracer:
         self.seconds.look += time.perf_counter() - start
 
     def _place(self) -> None:
-        """Move probes out of solids, and tell which are of use."""
+        """Move probes out of solids, and mark the useful ones."""
         _clear(self.maps["probe_places"])
         for step in range(PUSHED + 1):
             purpose = PUSHES if step < PUSHED else USE
@@ -224,23 +224,23 @@ class ProbeTracer:
         self._is_placed = True
 
     def _see(self, *numbers: int, kept: float) -> None:
-        """An update of distances, by rays that are turned by random numbers from these."""
+        """Update the distances once; `numbers` seed the random rotation of the rays."""
         turned = even_directions(RAYS) @ turn(seeds(*numbers)).T
         self._block.write(update_block(turned, DISTANCES, kept=kept))
         self._gather("probe_distances")
 
     def _gather(self, name: str) -> None:
-        """Send rays, and let a map take what they bring."""
+        """Trace rays from all probes, and add their results to the map `name`."""
         self._run("target_rays", RAYS)
         self._run(name, _TEXELS[name])
 
     def _run(self, name: str, lanes: int) -> None:
-        """A pass of so many lanes for each probe."""
+        """Run the pass that writes `name`, with `lanes` invocations per probe."""
         part = DispatchRange(0, 0, -(-lanes * self.grid.probes // GROUP))
         self._dispatch(name, self._kernels[name], part)
 
     def _dispatch(self, name: str, kernel: AnyKernel, part: DispatchRange) -> None:
-        """A part of the pass that writes what has this name."""
+        """Dispatch `part` of the pass that writes `name`."""
         writes_rays = name == "target_rays"
         images = {name: self._rays} if writes_rays else {"updated_map": self.maps[name]}
         maps = self.maps if writes_rays else {"probe_rays": self._rays}
@@ -248,7 +248,7 @@ class ProbeTracer:
         self._scene.dispatch(kernel, _Update(images), self._plan, part, 1, own)
 
     def _compiled(self, name: str, each: RenderPass) -> AnyKernel:
-        """By a dispatch whose results are cleared before anything reads them."""
+        """Compile a pass by a dispatch whose results are cleared before they are read."""
 
         def dispatch(kernel: AnyKernel, part: DispatchRange) -> None:
             self._dispatch(name, kernel, part)
@@ -257,7 +257,7 @@ class ProbeTracer:
 
 
 def _stand_alike(tracer: ProbeTracer, other: ProbeTracer) -> bool:
-    """Whether probes are pushed to the same places, and are of the same use."""
+    """Whether the probes of two tracers have the same places and the same use."""
     scene, before = tracer._plan.scene, other._plan.scene
     is_same_eye = scene.camera.position == before.camera.position
     is_same_grid = tracer.grid.places().tolist() == other.grid.places().tolist()

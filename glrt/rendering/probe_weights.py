@@ -1,20 +1,21 @@
-"""How much of what an update brings the probes take, so that light of all bounces comes soon.
+"""Weights of the updates of probes, which bring light of all bounces soon.
 
-The light E that probes hold is the solution of E = D + T E, D the light that comes straight from
-lamps and T one more bounce. To take each update whole brings one bounce more: after n of them the
-share a^n is missing, for an albedo a. With weights w that follow from the roots of a Chebyshev
-polynomial, E + w (D + T E - E), what is missing after all of them is as small as can be, for every
-T whose eigenvalues lie between -a and a (Golub and Varga, Chebyshev semi-iterative methods, 1961).
+The light E that probes hold is the solution of E = D + T E. D is the light that comes straight
+from lamps, T adds one more bounce. Updates of weight 1 bring one bounce each: after n updates the
+share a^n is missing, for an albedo a. Updates E + w (D + T E - E) take their weights w from the
+roots of a Chebyshev polynomial. Then as little light as possible is missing after all of them, for
+every T whose eigenvalues lie between -a and a (Golub and Varga, Chebyshev semi-iterative methods,
+1961).
 """
 
 import math
 
-ALBEDO = 0.95  # up to it all but a hundredth of the light is there at the end
+ALBEDO = 0.95  # up to it, at most a hundredth of the light is missing at the end
 STEPS = 16  # a power of two
 
 
 def _order(steps: int) -> list[int]:
-    """Of the roots, so that nothing grows large between (Lebedev and Finogenov 1971)."""
+    """An order of the roots in which nothing grows large between (Lebedev and Finogenov 1971)."""
     found = [1]
     while len(found) < steps:
         twice = 2 * len(found) + 1

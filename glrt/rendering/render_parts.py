@@ -1,4 +1,4 @@
-"""A picture that was merged from parts, rendered again to the same bits: part by part."""
+"""Render a picture that was merged from parts again: part by part, to the same bits."""
 
 from collections.abc import Callable
 
@@ -15,7 +15,7 @@ def render_parts(
     interruption: Interruption,
     watch: Callable[[Renderer], None] | None = None,
 ) -> Image | None:
-    """The picture that the parts make; if interrupted, of those that are whole, None for none."""
+    """Render and merge all parts; if interrupted, the complete ones, or None if there are none."""
     whole = []
     for number in partition.numbers:
         renderer.begin_part(number)

@@ -1,4 +1,4 @@
-"""Scene + Settings -> samples on a film, step by step."""
+"""Render a scene with settings: samples on a film, step by step."""
 
 import math
 import time
@@ -36,7 +36,7 @@ from glrt.settings import Cost, SettingOptions, Settings, settings_for
 
 
 class Renderer(Progress):
-    """Renders a scene a few samples at a time; what `update` costs is its class of cost."""
+    """Renders a scene a few samples at a time; `update` changes the scene or the settings."""
 
     def __init__(
         self,
@@ -52,16 +52,17 @@ class Renderer(Progress):
         apart: Apart = "repeated",
         **overrides: Unpack[SettingOptions],
     ) -> None:
-        """Open OpenGL, compile the kernel, allocate the film.
+        """Open OpenGL, compile the kernel and allocate the film.
 
-        `overrides` are fields of Settings; the rest comes from the scene's `[render]`. The tier
-        "baked" writes up to 32 shapes into the kernel: faster, but each edit of them compiles. The
-        pipeline is compute, or fragment for OpenGL 4.1; a `variant` of the kernel is an experiment.
-        `layering` by "groups" lets lamps change without a restart, by "lengths" fewer bounces.
-        A `part` (k, n) renders the k-th of n parts of the settings' samples, k from 1.
-        `apart` are meshes with trees of their own: moved without building one, slower to trace.
-        `decisions` tell recipes by what some of the settings were chosen in the user's place.
-        Raises ContextError, RenderError, and SceneError for a scene beyond the driver.
+        `overrides` are fields of Settings; the rest is in `settings`, or in the scene's `[render]`.
+        The tier "baked" writes up to 32 shapes into the kernel: faster, but each edit of them
+        compiles. The pipeline is compute, or fragment for OpenGL 4.1. A `variant` of the kernel is
+        an experiment. `layering` by "groups" lets lamps change without a restart, by "lengths" it
+        lets the bounces be fewer. A `part` (k, n) renders the k-th of n parts of the samples, from
+        k = 1. `apart` selects meshes with trees of their own: moved without a new tree, but slower
+        to trace. `decisions` are stored in recipes: what chose a setting in the user's place, by
+        its name. Raises UsageError for settings that do not go together, ContextError, RenderError,
+        and SceneError for a scene beyond the driver.
         """
         if not isinstance(scene, Scene):
             raise UsageError(f"a Scene is wanted, got {scene!r}: glrt.load reads one")
@@ -88,11 +89,11 @@ class Renderer(Progress):
 
     @property
     def wanted_samples(self) -> int:
-        """How many each pixel is to have: those of the settings, or of the part."""
+        """Samples per pixel to render: those of the settings, or of the part."""
         return len(self._samples)
 
     def begin_part(self, number: int) -> None:
-        """Begin another part of the same render."""
+        """Begin the part `number` of the same render, without samples."""
         assert self._part
         self._part = one_part(number, self._part.count, self.settings)
         self.plan = replace(self.plan, first_sample=self._samples.start)
@@ -108,7 +109,7 @@ class Renderer(Progress):
             raise UsageError(f"Part {self._part} has {self.wanted_samples} samples, not {samples}.")
 
     def lacks(self, samples: int) -> bool:
-        """Whether the picture has fewer samples, or particles or an AOV fewer than the picture."""
+        """Whether the picture has fewer samples, or its particles or AOVs lag behind it."""
         return self.samples < samples or self._tracer.is_behind
 
     @property
@@ -117,11 +118,11 @@ class Renderer(Progress):
         return self.settings.size
 
     def weighed(self, weights: Weights) -> moderngl.Texture:
-        """The film under weights, for the display pass: until the next call, in this context."""
+        """Texture of the film under weights, valid until the next call; needs a current context."""
         return self._mixer.draw(self.film, weights, self._tracer.shown_particles)
 
     def restart(self) -> None:
-        """Begin to accumulate anew."""
+        """Discard all samples and begin again."""
         self._tracer.restart()
         self._halver.restart()
 
@@ -132,9 +133,9 @@ class Renderer(Progress):
         hysteresis: float | None = None,
         **changes: Unpack[SettingOptions],
     ) -> Cost | None:
-        """Go on with another scene or other settings; returns what that cost, None for nothing.
+        """Change scene or settings, and keep what still fits; returns the cost, None for no change.
 
-        With a hysteresis, probes go on from picture to picture: see ProbeSupply.
+        With a hysteresis, probes continue from picture to picture: see ProbeSupply.
         """
         layering = layering or self.plan.layering
         after = scene or self.scene, with_filter(settings_for(self.settings, **changes))
@@ -160,16 +161,16 @@ class Renderer(Progress):
         return cost
 
     def bake(self) -> bool:
-        """Go on, to the same bits, by a faster kernel that has the shapes written into it.
+        """Switch to a faster kernel that has the shapes written into it; the bits stay the same.
 
-        When one changes, or the place of the camera, the kernel from before goes on at once. False
-        where there is none: this one has them, or they are too many.
+        After an edit of a shape or of the camera's place, the kernel from before continues at once.
+        Returns False if there is no faster kernel: this one is baked, or the shapes are too many.
         """
         with self.context.gl:
             return self._tracer.bake()
 
     def step(self, samples: int) -> None:
-        """Add `samples` samples to every pixel at once, or as many at once as prove to fit."""
+        """Add `samples` to every pixel, at once if they fit; UsageError above `most_samples`."""
         if not (most := self.most_samples) >= samples >= 1:
             raise UsageError(f"a dispatch of this scene takes 1 to {most} samples, not {samples}")
         self._check_part(self.samples + samples)
@@ -177,9 +178,9 @@ class Renderer(Progress):
             self._tracer.step(samples)
 
     def advance(self, seconds: float, samples: int | None = None) -> bool:
-        """Work for about `seconds`, up to `samples` samples a pixel (default: the settings').
+        """Work for about `seconds`, up to `samples` per pixel (default: the settings').
 
-        Returns whether the picture changed: a frame of it may take several calls.
+        Returns whether the picture changed: one frame of it may take several calls.
         """
         target = self.wanted_samples if samples is None else samples
         self._check_part(target)
@@ -192,9 +193,9 @@ class Renderer(Progress):
     def render(
         self, samples: int | None = None, goes_on: Callable[["Renderer"], bool] | None = None
     ) -> "Renderer":
-        """Step until each pixel has `samples` in all (default: the settings').
+        """Render until each pixel has `samples` in all (default: the settings'); return self.
 
-        Or until `goes_on`, which is asked after each dispatch, says no.
+        `goes_on` is called after each dispatch; the render stops early if it returns False.
         """
         target = self.wanted_samples if samples is None else samples
         self._check_part(target)
@@ -208,14 +209,14 @@ class Renderer(Progress):
         return self
 
     def image(self, weights: Weights | None = None) -> Image:
-        """The picture so far, with its standard error and its recipe; `weights` show it so."""
+        """The picture so far, with standard error and recipe; `weights` scale its layers."""
         if self.settings.denoise == "none":
             return self._halver.finished(self.plain_image(weights))
         done = self._halver.finished(self.image_for_halves(weights))
         return replace(done, film_state=None) if self.plan.layers else done
 
     def plain_image(self, weights: Weights | None = None) -> Image:
-        """The same, not denoised, with all AOVs that are gathered: guides of a denoiser, too."""
+        """The picture without denoising, with all gathered AOVs, a denoiser's guides among them."""
         self.probes.check()
         weights = weights or self.plan.weights
         with self.context.gl:
@@ -226,7 +227,7 @@ class Renderer(Progress):
         return Image(radiance, stderr, self.samples, self._recipe(weights), state, aovs, films)
 
     def image_for_halves(self, weights: Weights | None = None) -> Image:
-        """The same with what a denoiser needs of films that keep layers, too: not to go on from."""
+        """Like `plain_image`, for a denoiser also of films with layers; no render can resume it."""
         image = self.plain_image(weights)
         if image.film_state:
             return image
@@ -237,20 +238,20 @@ class Renderer(Progress):
         return replace(image, film_state=known)
 
     def reading(self, weights: Weights, x: int, y: int) -> Reading:
-        """What the pixel in column x and row y holds, (0, 0) upper left: in this context."""
+        """Reading of the pixel in column x, row y, (0, 0) upper left; needs a current context."""
         row, radiance, error = read_row(self.film, weights, y)
         radiance, error, _ = self._tracer.with_particles(radiance, error, weights, y)
         finite = self.film.samples - int(row.dropped[0, x])
         return Reading(radiance[0, x], error[0, x], finite)
 
     def picture(self, weights: Weights) -> tuple[Array, Array]:
-        """Radiance and its standard error, (H, W, 3) float32 each, under weights: as `reading`."""
+        """Weighted radiance and its standard error, (H, W, 3) float32; needs a current context."""
         mean, noise, _ = mixed(self.film, weights)
         radiance, stderr, _ = self._tracer.with_particles(mean, noise, weights)
         return radiance, stderr
 
     def resume(self, image: Image) -> "Renderer":
-        """Go on from a picture, to the bits of one render; UsageError says why not, if not."""
+        """Continue from a picture, to the bits of one render; UsageError says why it cannot."""
         film_state = fitting(image, self._recipe((ONE,)))
         with self.context.gl:
             self._tracer.resume(image.samples, image.radiance, film_state, image.particles)
@@ -264,12 +265,12 @@ class Renderer(Progress):
             return displayed(self.context.gl, self.weighed(self.plan.weights), self.settings)
 
     def nonfinite(self) -> int:
-        """How many samples and particles were dropped because they were not finite."""
+        """Number of samples and particles that were dropped because they were not finite."""
         with self.context.gl:
             return self.film.dropped() + self._tracer.lost_particles.refused
 
     def release(self) -> None:
-        """Free what the driver holds, the context too unless it was given."""
+        """Release all OpenGL resources; the context too, unless it was given."""
         with self.context.gl:
             self._tracer.release()
             self._mixer.release()

@@ -1,9 +1,9 @@
-"""How much work one dispatch takes: within the driver's loop limit and a budget of time.
+"""Plan the work of each dispatch, within the driver's loop limit and a budget of time.
 
-A frame gives every pixel some samples. Where those of every pixel take too long, its
-dispatches take a part of the picture each: tiles of 8 x 8 pixels, one work group each. They are
-numbered so that those of one dispatch lie all over the picture: each part costs about the same.
-The more samples a picture has, the more a frame adds: taken together they cost less.
+A frame gives every pixel some samples. If a whole frame takes too long, each dispatch covers a part
+of the picture: tiles of 8 x 8 pixels, one work group each. The tiles of one dispatch lie all over
+the picture, so that all parts cost about the same. The more samples a picture has, the more a frame
+adds, since many samples cost less together.
 """
 
 import math
@@ -25,30 +25,30 @@ from glrt.scene.scene import Scene
 from glrt.settings import RenderSettings
 
 MOST_TILES = 65_535  # work groups of a dispatch that every OpenGL grants
-FIRST_TILES = 16  # of the first dispatch, when nothing is known about its cost
-TREE_ROUNDS = 8  # of a ray through a tree over n spheres, by log2(n): docs/results/speed.md
-PARTS = CONSTANTS["PARTS"]  # of a cluster of lamps
-GROWTH = 4  # of the work from one dispatch to the next, at most
+FIRST_TILES = 16  # tiles of the first dispatch, whose cost is not known
+TREE_ROUNDS = 8  # rounds of a ray in a tree over n spheres, times log2(n): docs/results/speed.md
+PARTS = CONSTANTS["PARTS"]  # parts of a cluster of lamps
+GROWTH = 4  # largest factor of the work from one dispatch to the next
 MOST_TOGETHER = 16  # samples of a frame: more are hardly faster (docs/results/design-choices.md)
-# Of the two powers of a highlight, by squaring: a round for each bit, and the last look.
+# The two powers of a highlight, by squaring: a round for each bit, and the last check.
 _EXPONENT = read_constants(read("integrators/classic.glsl"))["MOST_EXPONENT"]
 HIGHLIGHT_ROUNDS = 2 * (_EXPONENT.bit_length() + 1)
 LINK_ROUNDS = read_constants(read("integrators/sphere_links.glsl"))["ROUNDS"]
 MOST_PASSED = 8
-ENOUGH = 0.75  # of a budget of time: the rest is not worth another dispatch
+ENOUGH = 0.75  # share of a budget of time: the rest is not worth another dispatch
 _GOLDEN = 0.618
 
 
 class DispatchPolicy(NamedTuple):
-    """How often a render stops: to be told to end, or to show what it has."""
+    """Limits of dispatches and frames, after which a render can stop or show its picture."""
 
     limit: float  # seconds that no dispatch may exceed: drivers end those of some seconds
-    share: float  # of the picture's samples: so many a frame may add, and lose if it ends early
-    patience: float  # seconds that a frame may take, if one sample takes no longer
+    share: float  # largest frame, in samples of the picture; an early end loses it
+    patience: float  # seconds that a frame may take, unless a single sample takes longer
 
 
-# Dispatches are planned for half of their limit. In a window it is edits that end a frame, which
-# begin the picture anew: nothing is lost then.
+# Dispatches are planned for half of their limit. In a window only edits end a frame early. They
+# restart the picture anyway, so nothing is lost.
 HEADLESS = DispatchPolicy(0.5, 1 / 8, math.inf)
 INTERACTIVE = DispatchPolicy(0.1, 1 / 4, 1.0)
 
@@ -56,10 +56,10 @@ INTERACTIVE = DispatchPolicy(0.1, 1 / 4, 1.0)
 def iterations_per_sample(plan: Plan, tree_rounds: float = TREE_ROUNDS) -> int:
     """Rounds of all loops for one sample: each segment runs over the shapes, once or twice.
 
-    At most, or where there is a tree over the spheres a guess; at least with `tree_rounds` of 0.
-    Lamps are weighed twice: for their sum, and to choose one; that loop takes a round less than
-    others. Of many, the parts of a cluster are weighed so too, and their sum for the density of the
-    lamp that is sampled, and of the one that is met.
+    An upper bound; with a tree over the spheres an estimate, and with `tree_rounds` of 0 a lower
+    bound. Lamps are weighed twice: for their sum, and to choose one. That loop takes a round less
+    than others. Many lamps form clusters, whose parts are weighed likewise. They are weighed again
+    for the density of the lamp that is sampled, and of the lamp that is met.
     """
     facts, settings = plan.facts, plan.settings
     search = rounds_of_search(facts, tree_rounds)
@@ -75,7 +75,7 @@ def iterations_per_sample(plan: Plan, tree_rounds: float = TREE_ROUNDS) -> int:
 
 
 def rounds_for_particles(plan: Plan) -> int:
-    """Further rounds: paths weighed against aimed particles, and links through spheres."""
+    """Additional rounds: weights of paths against aimed particles, and links through spheres."""
     settings, particles = plan.settings, plan.facts.particles
     if settings.caustics == "off":
         return 0
@@ -91,7 +91,7 @@ def rounds_for_particles(plan: Plan) -> int:
 
 
 def rounds_for_reuse(plan: Plan) -> int:
-    """Further rounds for points that other samples have kept: a ray to each."""
+    """Additional rounds for points that other samples have kept: one ray to each."""
     reuse = plan.settings.reuse
     if not reuses_points(plan.settings):
         return 0
@@ -100,7 +100,7 @@ def rounds_for_reuse(plan: Plan) -> int:
 
 
 def _levels_of_sky(scene: Scene) -> int:
-    """Of the tree by which an image of the sky is sampled."""
+    """Levels of the tree that samples an image of the sky; 0 without an image."""
     picture = scene.sky
     if not has_image(scene) or picture is None or picture.pixels is None:
         return 0
@@ -109,7 +109,7 @@ def _levels_of_sky(scene: Scene) -> int:
 
 
 def _passed(facts: SceneFacts) -> int:
-    """Holes, and surfaces inside other glass, that a segment may pass; of more it is a guess."""
+    """Holes, and surfaces in other glass, that a segment may pass; a guess from MOST_PASSED on."""
     passed = {*facts.media, *facts.holed}
     shapes = facts.scene.visible if passed else ()
     return min(sum(thing.material in passed for thing in shapes), MOST_PASSED)
@@ -118,8 +118,8 @@ def _passed(facts: SceneFacts) -> int:
 def rounds_of_search(facts: SceneFacts, tree_rounds: float = TREE_ROUNDS) -> int:
     """Rounds of the loops that find what one ray meets.
 
-    A loop over the shapes of one kind takes a round more than there are shapes: the one in which
-    it finds that there are no more. With a tree it is a guess.
+    A loop over n shapes of one kind takes n + 1 rounds: the last one finds the end. With a tree the
+    number is an estimate.
     """
     in_trees = [*facts.tree_kinds, *(["sphere"] if facts.has_sphere_tree else [])]
     counts = [
@@ -138,7 +138,7 @@ def _rounds_of_choice(found: SceneFacts) -> int:
 
 
 def _rounds_of_shading(found: SceneFacts, settings: RenderSettings, search: int) -> int:
-    """Segments over mirrors and glass, then all lamps, each with a shadow ray or a highlight."""
+    """Rounds of a lighting model: its segments, and a shadow ray or a highlight for each lamp."""
     lamps = sum(found.lamps.values())
     if METHODS[settings.method].follows:
         return (settings.bounces + 1) * (1 + search) + lamps * (1 + search)
@@ -146,9 +146,9 @@ def _rounds_of_shading(found: SceneFacts, settings: RenderSettings, search: int)
 
 
 def dispatch_limits(context: Context, plan: Plan) -> tuple[int | None, int]:
-    """How many rounds of loops a dispatch may take, None: any; and how many samples.
+    """Loop rounds per dispatch (None: no limit), and the most samples per dispatch.
 
-    SceneError if not one.
+    Raises SceneError if not even one sample fits.
     """
     more = rounds_for_particles(plan) + rounds_for_reuse(plan)
     iterations = iterations_per_sample(plan) + more
@@ -158,10 +158,10 @@ def dispatch_limits(context: Context, plan: Plan) -> tuple[int | None, int]:
 
 
 def most_samples(iterations: int, rounds: int | None, least: int | None = None) -> int:
-    """How many samples fit into a dispatch of so many rounds; SceneError when not even one does.
+    """The most samples in a dispatch of `rounds` loop rounds; SceneError if not even one fits.
 
-    `rounds`: None for a driver that does not limit loops. `least`: the iterations of a sample that
-    are certain, if `iterations` is a guess.
+    `rounds` is None for a driver that does not limit loops. `least` is the certain number of rounds
+    of a sample, if `iterations` is an estimate.
     """
     if rounds is None:
         return 1 << 10
@@ -176,17 +176,17 @@ def most_samples(iterations: int, rounds: int | None, least: int | None = None) 
 
 
 def stride_of(tiles: int) -> int:
-    """How far apart in the picture tiles with neighbouring numbers lie, in rows of tiles.
+    """Distance in the picture between tiles with neighbouring numbers, along rows of tiles.
 
-    Without a common factor with `tiles`, so that `number * stride % tiles` meets each tile
-    once; and small enough for that product in 32 bits.
+    It has no common factor with `tiles`, so `number * stride % tiles` meets each tile once. It is
+    small enough for that product in 32 bits.
     """
     start = max(1, min(int(_GOLDEN * tiles), 2**32 // tiles - 64))
     return next(stride for stride in count(start) if math.gcd(stride, tiles) == 1)
 
 
 class DispatchRange(NamedTuple):
-    """What one dispatch does: `samples` samples of each pixel in tiles `first` and following."""
+    """The work of one dispatch: `samples` per pixel, in `tiles` tiles from number `first` on."""
 
     samples: int
     first: int
@@ -194,24 +194,24 @@ class DispatchRange(NamedTuple):
 
 
 def whole_frame(samples: int, tiles: int) -> list[DispatchRange]:
-    """All tiles in as few dispatches as every driver takes."""
+    """Dispatches over all tiles, as few as every driver can take."""
     starts = range(0, tiles, MOST_TILES)
     return [DispatchRange(samples, first, min(MOST_TILES, tiles - first)) for first in starts]
 
 
 class Schedule:
-    """Plans frames dispatch by dispatch, from what the dispatches so far took."""
+    """Plans frames dispatch by dispatch, from the times of the dispatches so far."""
 
     def __init__(self, tiles: int, most_samples: int, rounds: int = 0) -> None:
-        """`tiles` of the picture; `most_samples` of a dispatch; loop `rounds` of a sample."""
+        """Plan for a picture of `tiles`, `most_samples` a dispatch and loop `rounds` a sample."""
         self._tiles, self._rounds = tiles, rounds
         self._most = most_samples
         self.follow(Pace())
 
     def follow(self, pace: Pace) -> None:
-        """Plan for a program, by what its dispatches took so far.
+        """Plan for another program, from the times of its dispatches so far.
 
-        Unless samples take more rounds than theirs: then it begins carefully.
+        If samples take more rounds now, those times are discarded, and it begins carefully.
         """
         self._pace = pace
         if self._rounds > pace.rounds:
@@ -222,24 +222,24 @@ class Schedule:
 
     @property
     def begun(self) -> float:
-        """Samples a pixel in the frame that is not complete, on average over the picture."""
+        """Samples per pixel in the incomplete frame, on average over the picture."""
         return self._samples * self._done / self._tiles
 
     def drop(self) -> None:
-        """Forget the frame that has begun: the next part starts another."""
+        """Discard the incomplete frame: the next part starts another one."""
         self._samples = self._done = 0
 
     def limit(self, most_samples: int) -> None:
-        """Begin the frame again: no dispatch may take more samples than these."""
+        """Begin the frame again, with at most `most_samples` per dispatch."""
         self._most = most_samples
         self.drop()
 
     def next_dispatch(
         self, remaining: int, seconds: float, held: int = 0, policy: DispatchPolicy = HEADLESS
     ) -> DispatchRange:
-        """The next dispatch: at most `remaining` samples in all, in about `seconds` seconds.
+        """The next dispatch: at most `remaining` samples per pixel in all, in about `seconds`.
 
-        The picture has `held` samples. Of a frame that has begun, `policy` changes nothing.
+        The picture has `held` samples. `policy` sets the size of a new frame only.
         """
         if self._samples > remaining:
             self.drop()
@@ -257,7 +257,7 @@ class Schedule:
         return DispatchRange(self._samples, self._done, math.ceil(left / dispatches))
 
     def record(self, part: DispatchRange, seconds: float) -> bool:
-        """Learn from a dispatch; whether it completed the frame."""
+        """Learn from a dispatch that took `seconds`; returns whether it completed the frame."""
         work = part.samples * part.tiles
         self._pace.tried = max(self._pace.tried, work)
         self._pace.cost = max(seconds, 1e-9) / work
@@ -270,6 +270,6 @@ class Schedule:
         return is_complete
 
     def _fitting(self, seconds: float, cost: float) -> float:
-        """The work of a dispatch of so many seconds; not much more than has been tried."""
+        """Samples x tiles that fit into `seconds`; at most GROWTH times what has been tried."""
         most = GROWTH * self._pace.tried
         return min(most, seconds / cost) if cost else most

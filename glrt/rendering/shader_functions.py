@@ -1,4 +1,4 @@
-"""Functions of the path tracer over arrays, with a scene for them to see."""
+"""Evaluate functions of the path tracer over arrays, with a scene that they see."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -41,11 +41,11 @@ def evaluate(
     apart: Apart = "repeated",
     settings: Settings | None = None,
 ) -> Array:
-    """An expression of the functions that trace paths (`Probe` says more), of a scene or of none.
+    """Evaluate a GLSL expression of the path tracing functions over arrays (see `Probe`).
 
-    Every feature is compiled in, and lamps are chosen as in the scene, unless `constants` say
-    otherwise; `apart` are meshes with trees of their own; the frame is of `settings`, or of what
-    the scene wishes. The context must be current.
+    The functions see `scene`, or an empty one. Every feature is compiled in, and lamps are chosen
+    as in the scene, unless `constants` say otherwise. `apart` selects meshes with trees of their
+    own. The frame has `settings`, by default the scene's `[render]`. The context must be current.
     """
     settings = settings or (settings_for(scene.render) if scene else None)
     plan = prepare(scene, settings, apart=apart) if scene and settings else None
@@ -71,7 +71,7 @@ def evaluate(
 def resources_of(
     gl: moderngl.Context, plan: Plan | None, arrays: Arrays, tree: SceneTree | None = None
 ) -> dict[str, Resource]:
-    """The buffers and textures that the functions read; a frame of zeros without a plan."""
+    """The buffers and textures that the functions read; without a plan, a frame of zeros."""
     frame = bytes(STRUCTS["Frame"].itemsize)
     picture = plan.scene.sky if plan else None
     pixels = picture.pixels if picture else None
@@ -109,7 +109,7 @@ def _choice(found: SceneFacts) -> dict[str, bool | int]:
 
 
 def no_rows() -> dict[str, Array]:
-    """The arrays of a scene without anything."""
+    """The arrays of an empty scene."""
     trees = ("Node", "Slot", "Corner", "Triangle", "Instance", "Tint")
     images, lamps = (
         ("Axes", "Uv", "Tangent", "Map", "Maps"),

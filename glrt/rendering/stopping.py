@@ -1,4 +1,4 @@
-"""A render with limits: samples, seconds and error; the first one reached ends it."""
+"""Render with limits: samples, seconds and error; the first one reached ends the render."""
 
 import signal
 import time
@@ -18,7 +18,7 @@ FIRST_LOOK = 64  # samples
 class Limits:
     """When to stop: `deadline` as a time of `time.perf_counter`, `error` as a fraction.
 
-    The error is judged at `first_look` samples and at each doubling.
+    The error is checked at `first_look` samples per pixel and at each doubling.
     """
 
     samples: int
@@ -33,15 +33,15 @@ class Limits:
 
 
 class Interruption:
-    """Remembers SIGINT or SIGTERM, so that a dispatch ends and the picture is saved."""
+    """Remembers SIGINT or SIGTERM, so that the dispatch ends and the picture is saved."""
 
     def __init__(self) -> None:
-        """Nothing has happened yet."""
+        """Begin without a signal."""
         self.signal: int | None = None
 
     @contextmanager
     def watched(self) -> Iterator["Interruption"]:
-        """Catch the two signals inside; a second one ends the process at once."""
+        """Catch both signals inside a with statement; a second one ends the process at once."""
         with handled(self._remember):
             yield self
 
@@ -56,10 +56,10 @@ def render_to_limit(
     interruption: Interruption,
     watch: Callable[[Renderer], None] | None = None,
 ) -> Image | None:
-    """Render to the first limit; None if there is no sample.
+    """Render to the first limit that is reached; None if there is no sample.
 
-    `watch` is called after each dispatch, to show progress. Each pixel gets a sample at least,
-    unless the interruption comes before; a frame that is not complete at the end is left out.
+    `watch` is called after each dispatch, to show progress. Each pixel gets at least one sample,
+    unless an interruption comes first. A frame that is incomplete at the end is left out.
     """
 
     def goes_on(renderer: Renderer) -> bool:
@@ -85,7 +85,7 @@ def render_to_limit(
 
 
 def _looks(limits: Limits) -> Iterator[int]:
-    """The sample counts at which to look at the error, and the last one."""
+    """The sample counts at which to check the error, and the last one."""
     look = limits.first_look
     while limits.error is not None and look < limits.samples:
         yield look

@@ -45,16 +45,16 @@ class Tracer:
         before: "Tracer | None" = None,
         hysteresis: float | None = None,
     ) -> None:
-        """Make what the plan needs; the film is that of `before` where it serves.
+        """Create the resources of a plan; the film of `before` is reused if it fits.
 
-        With a hysteresis probes go on from those of `before`. Raises SceneError for a scene beyond
-        the driver, and RenderError. Then nothing is held, and `before` has lost no more than the
-        frame that it had begun.
+        With a hysteresis, probes continue from those of `before`. Raises SceneError for a scene
+        beyond the driver, and RenderError. After an error nothing is held, and `before` has lost at
+        most its incomplete frame.
         """
         self._context, self._plan, self._options, gl = context, plan, options, context.gl
         self._rounds, self.most_samples = dispatch_limits(context, plan)
         settings = plan.settings
-        self._tiers: set[Tier] = set()  # of the kernels that added samples
+        self._tiers: set[Tier] = set()  # tiers of the kernels that added samples
         self._tiles = tile_count(*settings.size)
         with ExitStack() as refused:
             earlier: DeviceScene | None = before.device_scene if before else None
@@ -84,10 +84,10 @@ class Tracer:
             self.restart()
 
     def replaced_for(self, plan: Plan, hysteresis: float | None = None) -> tuple["Tracer", Cost]:
-        """A tracer for another plan, without samples yet; and what the change cost.
+        """A tracer for another plan, without samples yet, and the cost of the change.
 
-        It takes over this tracer's film where it fits, and frees the rest. On an error, which is as
-        the constructor raises it, this tracer is unchanged.
+        It takes over this tracer's film if that fits, and releases the rest. Errors are those of
+        the constructor; after one, this tracer is unchanged.
         """
         after = Tracer(self._context, plan, self._options, self, hysteresis)
         is_same = after.device_scene.has_kernel_of(self.device_scene)
@@ -106,16 +106,16 @@ class Tracer:
 
     @property
     def tier(self) -> str:
-        """Where the kernel found its shapes; two places, where a driver may tell kernels apart.
+        """Tier of the kernel that added samples; two tiers if both kernels did.
 
-        Drivers of software do not: then it is that of the kernel that stays through edits.
+        Both kernels give the same bits on software drivers: there it is the tier that stays.
         """
         if self._context.is_software or not self._tiers:
             return self.device_scene.tier
         return " and ".join(sorted(self._tiers))
 
     def restart(self) -> None:
-        """Begin to accumulate anew."""
+        """Discard all samples and begin again."""
         self.switch.schedule.drop()
         self.film.restart(self._plan.first_sample)
         if self.particles:
@@ -125,12 +125,12 @@ class Tracer:
         self._tiers.clear()
 
     def begin_at(self, first_sample: int) -> None:
-        """Begin to accumulate anew, with this sample."""
+        """Discard all samples and begin again at sample number `first_sample`."""
         self._plan = replace(self._plan, first_sample=first_sample)
         self.restart()
 
     def use_aovs(self, settings: Settings) -> None:
-        """Gather other AOVs; on an error, which is as the constructor raises it, the same."""
+        """Gather other AOVs; after an error, as of the constructor, the AOVs are unchanged."""
         if settings.gathered != self.aovs.aovs:
             after = self._aovs_for(settings, self)
             after.restart(self._plan)
@@ -155,9 +155,9 @@ class Tracer:
     def with_particles(
         self, radiance: Array, stderr: Array, weights: Weights, first: int = 0, waits: bool = False
     ) -> tuple[Array, Array, ParticleFilm | None]:
-        """Rows of the film under weights, with what particles bring; and the two films apart.
+        """Rows of the film under weights plus the light of particles, and the two films apart.
 
-        What particles bring so far, if they have brought anything, unless it `waits` for them all.
+        With `waits`, or before the first observation of particles, all missing ones are gathered.
         """
         if not self.particles:
             return radiance, stderr, None
@@ -167,7 +167,7 @@ class Tracer:
 
     @property
     def shown_particles(self) -> moderngl.Texture | None:
-        """What particles bring to the film: a mean over their observations that are complete."""
+        """Texture of the light of particles: a mean over complete observations, or None."""
         if not self.particles:
             return None
         if not self.particles.film.samples:
@@ -180,13 +180,13 @@ class Tracer:
 
     @property
     def lost_particles(self) -> Losses:
-        """Of the particles that were linked to the camera."""
+        """Losses among the particles that were linked to the camera."""
         return self.particles.losses if self.particles else Losses(0, 0)
 
     def resume(
         self, samples: int, mean: Array, film_state: FilmState, particles: ParticleFilm | None
     ) -> None:
-        """Take up what another film has read, by a kernel of the same tier."""
+        """Continue from a picture that a kernel of the same tier has rendered."""
         self.switch.schedule.drop()
         self.film.write(samples, particles.camera if particles else mean, film_state)
         if self.particles and particles:
@@ -195,14 +195,14 @@ class Tracer:
         self._tiers = {self.device_scene.tier}
 
     def bake(self) -> bool:
-        """Go on by a kernel that has the shapes written in; False where there is none."""
+        """Switch to a kernel with the shapes written in; False if there is none."""
         shaders = None if self.switch.uses_fast_kernel else self.device_scene.baked()
         if shaders:
             self.switch.use_fast(shaders)
         return shaders is not None
 
     def step(self, samples: int) -> None:
-        """Add `samples` samples to every pixel at once, or as many at once as prove to fit."""
+        """Add `samples` to every pixel at once, or in portions if they prove too many."""
         self.switch.schedule.drop()
         target = self.film.samples + samples
         while self.film.samples < target:
@@ -212,7 +212,7 @@ class Tracer:
         self._catch_up_particles()
 
     def work_on(self, remaining: int, policy: DispatchPolicy, seconds: float) -> None:
-        """One dispatch: of what is behind, or of the picture; those of a frame read one source."""
+        """Run one dispatch: of particles or AOVs that lag behind, of probes, or of the picture."""
         planned, next_sample = min(seconds, policy.limit / 2), self.film.next_sample
         if self.is_behind:
             self._work_behind(policy, seconds)
@@ -233,20 +233,20 @@ class Tracer:
             self._advance(part.samples)
 
     def release(self) -> None:
-        """Free what the driver holds."""
+        """Release all OpenGL resources."""
         for part in (self.film, self.probes, self.aovs):
             part.release()
         self._release_own()
 
     def _release_own(self) -> None:
-        """Free what no other tracer takes over."""
+        """Release what no other tracer takes over."""
         if self.particles:
             self.particles.release()
         self.switch.release()
         self.device_scene.release()
 
     def _aovs_for(self, settings: Settings, before: "Tracer | None" = None) -> AovTracer:
-        """What gathers the AOVs of settings: that of `before` where it does."""
+        """The AOV tracer for settings: that of `before` if it serves them, else a new one."""
         plan = replace(self._plan, settings=settings)
         is_same = before and self.device_scene.has_kernel_of(before.device_scene)
         if before and is_same and before.aovs.serve(settings):
@@ -270,7 +270,7 @@ class Tracer:
         return KernelSwitch(self._context, self.device_scene.shaders, schedule, self._dispatch)
 
     def _at_once(self, samples: int) -> None:
-        """Samples of every pixel at once; none if they prove too many."""
+        """Add samples to every pixel at once; add none if they prove too many."""
         for part in whole_frame(samples, self._tiles):
             self._dispatch(self.switch.kernel, part)
         self._context.finish()
@@ -282,10 +282,10 @@ class Tracer:
         self._tiers.add("baked" if self.switch.uses_fast_kernel else self.device_scene.tier)
 
     def _fits(self, samples: int) -> bool:
-        """Whether no sample of this frame was lost to the loop limit, or fewer would not help.
+        """Whether the frame lost no sample to the loop limit, or a smaller frame would not help.
 
-        Rays through a tree take as many rounds as they take. A frame that lost some is done again
-        with fewer samples at once; what is lost then is counted on the film.
+        The rounds of rays through a tree are not known before. A frame that lost samples is
+        repeated with fewer samples at once; a frame of one sample counts its losses on the film.
         """
         if self._rounds is None or not self.device_scene.lost_any() or samples == 1:
             return True

@@ -25,6 +25,6 @@ Modules, each importing only what stands above it:
 - scenefile: scene files (TOML), read and written
 - glasses: glasses of a scene, and the medium around its camera
 - summary: contents of a scene in words
-- crossing_glass: how glass solids intersect
+- crossing_glass: glass solids that cross, share a face or lie inside each other
 - warnings: warnings about numbers and limits of the model
 """

@@ -19,7 +19,7 @@ from glrt.settings import Cost, Editable
 
 
 class Camera(Value):
-    """A pinhole camera or a thin lens."""
+    """A camera with a pinhole or a thin lens."""
 
     position: Vector = Field(description="position of the camera, x y z in scene units")
     look_at: Vector = Field(description="the point in the middle of the picture, in scene units")
@@ -60,7 +60,7 @@ class Camera(Value):
 
     @property
     def view(self) -> Vector:
-        """From the position to the point looked at, in scene units."""
+        """Vector from the position to the point looked at, in scene units."""
         eye, target = self.position, self.look_at
         return (target[0] - eye[0], target[1] - eye[1], target[2] - eye[2])
 

@@ -1,4 +1,4 @@
-"""Flat lamps that share a place with other surfaces: within rounding, rays meet both at once.
+"""Flat lamps that lie in the same place as other surfaces, so that rays meet both, up to rounding.
 
 The kernel then decides which one a ray sees (shaders_glsl/shapes/coincident.glsl).
 """
@@ -17,9 +17,9 @@ from glrt.scene.shapes.kinds import Shape
 from glrt.scene.shapes.mesh import Mesh
 from glrt.scene.shapes.plane import Plane
 
-TOGETHER = 2.0**-17  # of the size of two surfaces: twice what the kernel takes for rounding
-LEAST_OVERLAP = 1e-4  # of the smaller one, across each edge: neighbours that touch share no place
-MOST_TRIANGLES = 65_535  # that emit: of meshes with more, none is compared
+TOGETHER = 2.0**-17  # largest gap over the size of two surfaces: twice the kernel's rounding
+LEAST_OVERLAP = 1e-4  # least overlap over the smaller size: neighbours that only touch are apart
+MOST_TRIANGLES = 65_535  # emitting triangles; if there are more, meshes are not compared as lamps
 PORTION = 1 << 16  # pairs that are compared at once
 
 Floats = NDArray[np.float64]
@@ -27,9 +27,9 @@ Ints = NDArray[np.int64]
 
 
 class Coincidence(NamedTuple):
-    """Which surfaces share a place."""
+    """Pairs of surfaces that lie in the same place."""
 
-    pairs: tuple[tuple[int, int], ...]  # numbers of objects; of one object, where it does so itself
+    pairs: tuple[tuple[int, int], ...]  # numbers of objects, equal if one overlaps itself
     low: tuple[float, ...]  # a box around these surfaces
     high: tuple[float, ...]
 
@@ -74,7 +74,7 @@ def _coincidence(
 
 class _Shared(NamedTuple):
     pairs: set[tuple[int, int]]
-    corners: Floats  # (n, 3): of the polygons that overlap
+    corners: Floats  # (n, 3): corners of the polygons that overlap
 
 
 def _emits(thing: Shape, materials: Mapping[str, Material]) -> bool:
@@ -85,7 +85,7 @@ def _emits(thing: Shape, materials: Mapping[str, Material]) -> bool:
 def _lamps(
     objects: Sequence[Shape], materials: Mapping[str, Material], shown: Sequence[int]
 ) -> Polygons:
-    """The flat surfaces that emit."""
+    """Return the flat surfaces that emit."""
     bright = [n for n in shown if _emits(objects[n], materials)]
     meshes = [thing for n in bright if isinstance(thing := objects[n], Mesh)]
     if any(mesh.file.triangles is None for mesh in meshes):
@@ -97,8 +97,8 @@ def _lamps(
 
 
 def _near(objects: Sequence[Shape], shown: Sequence[int], low: Floats, high: Floats) -> Polygons:
-    """The flat surfaces that touch a box, or nearly so."""
-    with np.errstate(invalid="ignore"):  # a box without end
+    """Return the flat surfaces that touch a box, or nearly so."""
+    with np.errstate(invalid="ignore"):  # for an infinite box
         slack = np.nan_to_num(TOGETHER * np.linalg.norm(high - low), nan=0.0, posinf=0.0)
     low, high = low - slack, high + slack
     near = [n for n in shown if _touches(objects[n], low, high)]
@@ -106,7 +106,7 @@ def _near(objects: Sequence[Shape], shown: Sequence[int], low: Floats, high: Flo
 
 
 def _touches(thing: Shape, low: Floats, high: Floats) -> bool:
-    """Whether a box around an object touches another one."""
+    """Return whether a box around an object touches another box."""
     if isinstance(thing, Plane):
         return False
     lower, upper = (edge[0] for edge in thing.bounds(np.array([thing.row], np.float64)))
@@ -116,7 +116,7 @@ def _touches(thing: Shape, low: Floats, high: Floats) -> bool:
 def _on_planes(
     some: Polygons, planes: Sequence[int], objects: Sequence[Shape]
 ) -> Iterator[_Shared]:
-    """Polygons that lie in infinite planes."""
+    """Yield polygons that lie in infinite planes."""
     for number in planes:
         plane = objects[number]
         assert isinstance(plane, Plane)
@@ -130,7 +130,7 @@ def _on_planes(
 
 
 def _overlaps(lamps: Polygons, others: Polygons) -> Iterator[_Shared]:
-    """Find the polygons that overlap lamps in one plane."""
+    """Yield polygons that overlap lamps in one plane."""
     for a, b in box_pairs(lamps.boxes, others.boxes):
         first, second = lamps.of(a), others.of(b)
         same = (first.corners[:, :3] == second.corners[:, :3]).all(axis=(1, 2))
@@ -141,14 +141,17 @@ def _overlaps(lamps: Polygons, others: Polygons) -> Iterator[_Shared]:
 
 
 def _shared(some: Polygons, others: Ints, more: Floats) -> _Shared:
-    """Polygons that share places with those of other objects, (n,), which have more corners."""
+    """Return coinciding polygons as pairs of objects, with the corners of both.
+
+    `others`, (n,), are the objects of the other polygons, and `more` the corners of those.
+    """
     pairs = np.unique(np.sort(np.column_stack([some.owner, others]), axis=1), axis=0)
     corners = np.concatenate([some.corners.reshape(-1, 3), more.reshape(-1, 3)])
     return _Shared({(int(a), int(b)) for a, b in pairs}, corners)
 
 
 def _lie_together(first: Polygons, second: Polygons) -> NDArray[np.bool_]:
-    """(n,): whether pairs of polygons lie in one plane, within rounding, and overlap there."""
+    """Return whether pairs of polygons lie in one plane, up to rounding, and overlap, (n,)."""
     flat = first.normals, second.normals
     corners = np.concatenate([first.corners, second.corners], axis=1)
     size = np.linalg.norm(corners.max(axis=1) - corners.min(axis=1), axis=1)
@@ -164,7 +167,7 @@ def _lie_together(first: Polygons, second: Polygons) -> NDArray[np.bool_]:
 
 
 def _overlap(first: Polygons, second: Polygons, normals: Floats) -> NDArray[np.bool_]:
-    """(n,): of pairs in one plane: no edge of either has the two on its two sides."""
+    """Return whether pairs of polygons in one plane overlap, (n,): no edge separates the two."""
     overlap = np.ones(len(normals), bool)
     for corners in (first.corners, second.corners):
         edges = np.roll(corners, -1, axis=1) - corners
@@ -186,10 +189,10 @@ def _dots(a: Floats, b: Floats) -> Floats:
 def box_pairs(
     some: tuple[Floats, Floats], others: tuple[Floats, Floats]
 ) -> Iterator[tuple[Ints, Ints]]:
-    """Rows of boxes that touch, (k,) each, in portions.
+    """Yield rows of boxes that touch, (k,) each, in portions.
 
-    Boxes are compared along the axis on which `some` spread widest; the others by size, so that a
-    wide one does not make all small ones candidates.
+    Boxes are compared along the axis on which `some` spread widest. The others are grouped by size,
+    so that a wide one does not make all small ones candidates.
     """
     low, high = others
     reach = TOGETHER * (high - low).max(initial=0.0)
@@ -213,7 +216,7 @@ def box_pairs(
 
 
 def _portions(counts: Ints) -> Iterator[slice]:
-    """Slices of rows with at most PORTION pairs together, or of one row."""
+    """Yield slices of rows with at most PORTION pairs together, or of one row."""
     first, total = 0, 0
     for row, count in enumerate(counts.tolist()):
         if total and total + count > PORTION:

@@ -1,4 +1,4 @@
-"""How solids of glass lie to each other: what crosses, what lies inside, what shares a face."""
+"""Relations between solids of glass: which cross, lie inside another, or share a face."""
 
 import math
 from collections.abc import Iterator
@@ -14,10 +14,10 @@ from glrt.scene.shapes.kinds import Shape
 from glrt.scene.shapes.plane import Plane
 from glrt.scene.shapes.sphere import Sphere
 
-MOST_COMPARED = 1000  # solids that are looked at with all others
-MOST_PAIRS = 300  # of solids near each other, of which one is no ball, that are looked at
-POINTS = 256  # of a surface
-SLACK = 1e-6  # of the size: solids that were meant to touch do
+MOST_COMPARED = 1000  # solids that are compared with each other
+MOST_PAIRS = 300  # compared pairs of solids near each other that are not both balls
+POINTS = 256  # points on a surface
+SLACK = 1e-6  # share of the size by which solids that touch may overlap
 
 Floats = NDArray[np.float64]
 Pair = tuple[int, int]
@@ -25,17 +25,17 @@ Relation = Literal["cross", "share a face", "inside"]
 
 
 class Found(NamedTuple):
-    """Two solids, by index; of those that lie inside each other, the inner one is the first."""
+    """Two solids, by index, and their relation; for "inside", the first lies in the second."""
 
     relation: Relation
     pair: Pair
 
 
 def relations(solids: list[Shape], eye: Floats) -> Iterator[Found]:
-    """Which of the solids cross, share a part of a flat face, or lie inside another.
+    """Yield which of the solids cross, share a part of a flat face, or lie inside another.
 
-    Balls are compared exactly, others by points of their surfaces. `eye` is where rounding should
-    be least, (3,).
+    Balls are compared exactly, others by points of their surfaces. `eye`, (3,), is where rounding
+    should be least.
     """
     few = solids[:MOST_COMPARED]
     balls = [index for index, solid in enumerate(few) if isinstance(solid, Sphere)]
@@ -48,7 +48,7 @@ def relations(solids: list[Shape], eye: Floats) -> Iterator[Found]:
 
 
 def _balls(center: Floats, radius: Floats) -> Iterator[tuple[Relation, int, int]]:
-    """Pairs whose surfaces meet in a circle, not in a point, and balls within others."""
+    """Yield pairs of balls whose surfaces meet in a circle, and balls within others."""
     for first in range(len(radius) - 1):
         apart = np.linalg.norm(center[first + 1 :] - center[first], axis=1)
         total, rest = radius[first + 1 :] + radius[first], radius[first + 1 :] - radius[first]
@@ -62,7 +62,7 @@ def _balls(center: Floats, radius: Floats) -> Iterator[tuple[Relation, int, int]
 
 
 def _near_pairs(solids: list[Shape]) -> Iterator[Pair]:
-    """Pairs that are not both balls and whose bounding spheres meet."""
+    """Yield pairs that are not both balls and whose bounding spheres meet."""
     single = [index for index, solid in enumerate(solids) if not isinstance(solid, Sphere)]
     for first in single:
         for second in range(len(solids)):
@@ -95,7 +95,7 @@ def _between(solids: list[Shape], first: int, second: int) -> Iterator[Found]:
 
 
 def _depths(solid: Shape, other: Shape) -> tuple[float, float]:
-    """How far points of a solid's surface lie in another: the least and the most; 0 on it."""
+    """Return the least and the largest depth of a solid's surface points in another; 0 on it."""
     if isinstance(solid, Plane):
         return -math.inf, -math.inf
     depths = np.array([_depth(other, point) for point in _surface(solid)])
@@ -104,14 +104,14 @@ def _depths(solid: Shape, other: Shape) -> tuple[float, float]:
 
 
 def _surface(solid: Shape) -> Iterator[Floats]:
-    """Points that rays from its middle meet, evenly over all directions."""
+    """Yield the points where rays from a solid's middle leave it, evenly over all directions."""
     for direction in _directions():
         away = _distance(solid, direction)
         yield np.asarray(solid.middle) + away * direction
 
 
 def _depth(solid: Shape, point: Floats) -> float:
-    """How far a point lies below the surface of a solid, seen from its middle; negative outside."""
+    """Return how far a point is below a solid's surface, seen from its middle; negative outside."""
     if isinstance(solid, Plane):
         normal = np.asarray(solid.normal) / np.linalg.norm(solid.normal)
         return float((np.asarray(solid.point) - point) @ normal)
@@ -121,14 +121,14 @@ def _depth(solid: Shape, point: Floats) -> float:
 
 
 def _distance(solid: Object, direction: Floats) -> float:
-    """From its middle to its surface."""
+    """Return the distance from a solid's middle to its surface in a direction."""
     rows = np.array([solid.row], np.float64)
     with np.errstate(divide="ignore", invalid="ignore"):
         return float(type(solid).distances(rows, np.asarray(solid.middle), direction)[0])
 
 
 def _directions() -> Floats:
-    """Spread over the sphere, (POINTS, 3): Fibonacci's."""
+    """Return unit vectors spread over the sphere, (POINTS, 3): a Fibonacci lattice."""
     steps = np.arange(POINTS) + 0.5
     up = 1 - 2 * steps / POINTS
     around = np.pi * (1 + 5**0.5) * steps

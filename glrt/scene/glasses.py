@@ -1,4 +1,4 @@
-"""The glasses of a scene, which of them overlap by priority, and what a camera inside sees from."""
+"""The glasses of a scene, and the medium around its camera."""
 
 from collections.abc import Iterable
 from typing import Any, NamedTuple
@@ -21,16 +21,16 @@ class Around(NamedTuple):
     """The glass around a point."""
 
     absorption: Color  # per unit length
-    counts: int  # of objects of each glass with a priority, as the kernel counts them
+    counts: int  # objects around it for each glass with a priority, packed as in the kernel
 
 
 AIR = Around(BLACK, 0)
 
 
 def glasses_of(scene: Scene, finishes: Iterable[Finish]) -> dict[str, Dielectric]:
-    """The glasses of these finishes that are more than clear and smooth, by name.
+    """Return the glasses of these finishes that are rough, tinted or have a priority, by name.
 
-    Those with a priority come first, the highest before the others.
+    Glasses with a priority come first, the highest before the others.
     """
     found: dict[str, Dielectric] = {}
     for finish in finishes:
@@ -45,14 +45,15 @@ def _rank(glass: Dielectric) -> tuple[bool, int]:
 
 
 def media_of(glasses: dict[str, Dielectric]) -> list[str]:
-    """Those of `glasses_of` that have a priority."""
+    """Return the names of those glasses of `glasses_of` with a priority."""
     return [name for name, glass in glasses.items() if glass.priority is not None]
 
 
 def around_camera(scene: Scene, glasses: dict[str, Dielectric]) -> Around:
-    """The glass around the middle of the lens: of priorities the highest, else the smallest object.
+    """Return the glass around the middle of the lens, and the counts of glasses there.
 
-    `glasses` as `glasses_of` gives them.
+    It is the glass of the highest priority; without priorities, the glass of the smallest object.
+    `glasses` are those of `glasses_of`.
     """
     if not glasses:
         return AIR
@@ -67,7 +68,7 @@ def around_camera(scene: Scene, glasses: dict[str, Dielectric]) -> Around:
 
 
 def holds(shape: Shape, point: Array) -> bool:
-    """Whether a point, (3,), lies inside a shape that encloses a volume."""
+    """Return whether a point, (3,), lies inside a shape that encloses a volume."""
     if isinstance(shape, Plane):
         return bool((point - shape.point) @ np.asarray(shape.normal) < 0)
     if isinstance(shape, Mesh):
@@ -80,7 +81,7 @@ def holds(shape: Shape, point: Array) -> bool:
 
 
 def _turns(mesh: Mesh, point: Array) -> float:
-    """How often a mesh goes around a point (van Oosterom and Strackee 1983)."""
+    """Return how often a mesh winds around a point (van Oosterom and Strackee 1983)."""
     if np.linalg.norm(point - mesh.middle) > mesh.reach:
         return 0.0
     corners = mesh.world_vertices - point

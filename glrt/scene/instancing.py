@@ -1,6 +1,6 @@
-"""Which meshes have a tree of their own: their triangles are kept once, wherever they stand.
+"""Choose the meshes with a BVH of their own: their triangles are kept once, wherever they stand.
 
-Rays take more work to enter such a tree, and a mesh that is moved has none built anew.
+Rays take more work to enter such a BVH, and a mesh that moves needs no new one.
 """
 
 from collections.abc import Collection, Mapping, Sequence
@@ -9,18 +9,18 @@ from typing import Literal
 from glrt.scene.materials.kinds import Material
 from glrt.scene.shapes.mesh import Mesh
 
-# Those that are used more than once, where that saves much; large ones too, once one is moved; or
-# those and all large ones.
+# "repeated": meshes used more than once, where that saves much. "large": all large ones as well.
+# "moved": repeated ones, and all large ones once a large one is moved.
 Apart = Literal["repeated", "moved", "large"]
 
-LEAST_SAVED = 1_000_000  # triangles that copies would take: 90 MB (docs/results/speed.md)
-LEAST_LARGE = 20_000  # of a mesh: the tree of a smaller one is built at once where it is moved
+LEAST_SAVED = 1_000_000  # triangles that copies would add: 90 MB (docs/results/speed.md)
+LEAST_LARGE = 20_000  # triangles of a mesh: a smaller one that moves gets a new BVH at once
 
 
 def with_own_tree(
     meshes: Sequence[Mesh], materials: Mapping[str, Material], apart: Apart = "repeated"
 ) -> tuple[int, ...]:
-    """Which of the visible meshes of a scene have a tree of their own: places in the list.
+    """Return the numbers of the visible meshes that have a BVH of their own.
 
     Lamps have none, for each of their triangles is sampled where it stands.
     """
@@ -38,7 +38,7 @@ def with_own_tree(
 
 
 def after_moves(apart: Apart, before: Sequence[Mesh], after: Sequence[Mesh]) -> Apart:
-    """What holds after an edit of a scene that has these meshes: `moved` becomes `large`."""
+    """Return `apart` after an edit of meshes: "moved" becomes "large" if a large one moved."""
     if apart != "moved" or len(before) != len(after):
         return apart
     pairs = zip(before, after, strict=True)
@@ -52,7 +52,7 @@ def after_moves(apart: Apart, before: Sequence[Mesh], after: Sequence[Mesh]) -> 
 
 
 def distinct(meshes: Sequence[Mesh]) -> tuple[list[Mesh], list[int]]:
-    """The first mesh of each file and part, and for each mesh which of those it is like."""
+    """Return the first mesh of each file and part, and for each mesh the number of its first."""
     numbers: dict[tuple[str | None, str | None], int] = {}
     first: list[Mesh] = []
     kinds: list[int] = []
@@ -63,7 +63,7 @@ def distinct(meshes: Sequence[Mesh]) -> tuple[list[Mesh], list[int]]:
 
 
 def tree_sizes(meshes: Sequence[Mesh], own: Collection[int]) -> tuple[int, list[int]]:
-    """Triangles in the tree of the scene, and in each of the own trees of the meshes `own`."""
+    """Return the triangles in the BVH of the scene, and in each own BVH of the meshes `own`."""
     sizes = [len(mesh.triangles.faces) for mesh in meshes]
     first = distinct([meshes[number] for number in own])[0]
     shared = sum(sizes) - sum(sizes[number] for number in own)

@@ -1,4 +1,4 @@
-"""A scene of a model file alone: with its own cameras and lights, or usual ones."""
+"""The scene of a model file alone, with the file's cameras and lights or usual ones."""
 
 import math
 from collections.abc import Mapping
@@ -25,21 +25,21 @@ from glrt.scene.studio import LEAST_RADIUS, lights_itself, with_studio
 Table = dict[str, Any]
 
 FOV = 35.0  # degrees
-_FROM = np.array([0.65, 0.45, 1.0])  # where the camera stands: three quarters, above
-_EDGE = 512  # the longer one of the picture, pixels
-CLAY = (0.6, 0.58, 0.55)  # of what has no material
+_FROM = np.array([0.65, 0.45, 1.0])  # from the model to the camera: three quarters, above
+_EDGE = 512  # longer edge of the picture, pixels
+CLAY = (0.6, 0.58, 0.55)  # color of surfaces without a material
 
 
 def is_model(path: Path) -> bool:
-    """Whether the name of a file is that of a model."""
+    """Return whether the name of a file is that of a model."""
     return path.suffix.lower() in FORMATS
 
 
 def model_scene(path: Path, folder: AssetFolder, source: str) -> Scene:
-    """The scene of a model with the content of its files; `source` is what messages call it.
+    """Return the scene of a model with the content of its files; messages call it `source`.
 
-    Without a camera it is seen from three quarters above. It stands in a studio where the file has
-    no lights and its own emission does not light it. Raises `SceneError`.
+    Without a camera, the model is seen from three quarters above. It stands in a studio if the file
+    has no lights and its own emission does not light it. Raises `SceneError`.
     """
     reader = AssetReader(folder)
     name = text_of(path.name)
@@ -66,7 +66,7 @@ def model_scene(path: Path, folder: AssetFolder, source: str) -> Scene:
 def _add_stage(
     tables: Table, asset: Asset, reader: AssetReader, mesh: TriangleMesh, source: str
 ) -> bool:
-    """Add cameras and lights of a glTF file; whether it has lights."""
+    """Add cameras and lights of a glTF file; return whether it has lights."""
     try:
         document = Document(asset.content, Beside(asset, reader, source))
         lights = lights_of(document, _ball(mesh)[1])
@@ -86,20 +86,20 @@ def _add_stage(
 
 
 def _ball(mesh: TriangleMesh) -> tuple[Any, float]:
-    """Middle and radius of a ball around a mesh."""
+    """Return middle and radius of a ball around a mesh."""
     low, high = mesh.box
     return (low + high) / 2, max(float(np.linalg.norm(high - low)) / 2, LEAST_RADIUS)
 
 
 def _view(mesh: TriangleMesh) -> Mapping[str, Any]:
-    """A camera that has all of a mesh in its picture."""
+    """Return a camera that has all of a mesh in its picture."""
     center, radius = _ball(mesh)
     away = _FROM / np.linalg.norm(_FROM) * radius / math.sin(math.radians(FOV) / 2)
     return {"camera": {"position": center + away, "look_at": center, "fov": FOV}}
 
 
 def _size(aspect: float) -> Table:
-    """Of a picture whose longer edge has _EDGE pixels."""
+    """Return width and height of a picture whose longer edge has _EDGE pixels."""
     longest = max(aspect, 1.0)
     width, height = (max(round(_EDGE * edge / longest), 1) for edge in (aspect, 1.0))
     return {"width": width, "height": height}

@@ -1,4 +1,4 @@
-"""Scenes without their names, which no light depends on."""
+"""Compare scenes without the names of their parts, on which no light depends."""
 
 from collections.abc import Callable, Collection
 from typing import TypeVar
@@ -9,14 +9,14 @@ from glrt.scene.scene import SKY_GROUP, SUN_GROUP, Scene
 from glrt.scene.shapes.kinds import Shape
 
 T = TypeVar("T")
-_KEPT = {SKY_GROUP: SKY_GROUP, SUN_GROUP: SUN_GROUP}  # groups of what has no other name
+_KEPT = {SKY_GROUP: SKY_GROUP, SUN_GROUP: SUN_GROUP}  # groups with fixed names
 
 
 def less_names(first: Scene, second: Scene) -> tuple[Scene, Scene]:
-    """Both scenes with numbers for names, if their names differ; else as they are.
+    """Return both scenes with numbers for names, if their names differ; else as they are.
 
-    They are equal then if one is the other under other names: title, objects, materials, light
-    groups. Numbers are those of the order in the scene, which decides on a kernel's.
+    The results are equal if one scene is the other with other names of title, objects, materials or
+    light groups. Numbers follow the order in the scene, which decides the order in the kernel.
     """
     if _are_named_alike(first, second):
         return first, second
@@ -24,7 +24,7 @@ def less_names(first: Scene, second: Scene) -> tuple[Scene, Scene]:
 
 
 def _are_named_alike(first: Scene, second: Scene) -> bool:
-    """An edit leaves most objects the very same, of thousands: these are not looked at."""
+    """Return whether all names are equal; the many objects that an edit keeps are not compared."""
     if first.title != second.title or [*first.materials] != [*second.materials]:
         return False
     return _alike(first.objects, second.objects, _names_of) and _alike(

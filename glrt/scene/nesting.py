@@ -1,4 +1,4 @@
-"""Glasses that overlap by priority: what the kernel can count."""
+"""Glasses that overlap by priority: how many of them the kernel can count."""
 
 from collections.abc import Iterator, Mapping, Sequence
 
@@ -12,14 +12,14 @@ from glrt.scene.shapes.kinds import Shape
 
 MOST_MEDIA = 6  # glasses with a priority in a scene: the kernel counts them in one word
 BITS = 5  # BITS_OF_COUNT of the kernel
-MOST_NESTED = (1 << BITS) - 1  # objects of one of them that may overlap
-_COMPARED = 4096  # objects of one glass that are looked at
+MOST_NESTED = (1 << BITS) - 1  # objects of one such glass that may overlap
+_COMPARED = 4096  # objects of one glass that are compared
 
 
 def nesting_problems(
     materials: Mapping[str, Material], shapes: Sequence[Shape]
 ) -> Iterator[tuple[Place, str]]:
-    """What does not fit of the glasses of these shapes that have a priority."""
+    """Yield what does not fit: too many glasses with a priority, or too many that overlap."""
     used = dict.fromkeys(shape.material for shape in shapes)
     media = [name for name in used if _priority(materials.get(name)) is not None]
     if len(media) > MOST_MEDIA:
@@ -46,7 +46,7 @@ _TOO_MANY = (
 
 
 def _neighbours(shapes: Sequence[Shape]) -> int:
-    """The most shapes whose balls meet that of one shape."""
+    """Return the largest number of shapes whose balls meet the ball of one shape."""
     middle = np.array([shape.middle for shape in shapes[:_COMPARED]])
     reach = np.array([shape.reach for shape in shapes[:_COMPARED]])
     apart = (np.linalg.norm(middle - middle[k], axis=1) for k in range(len(middle)))

@@ -1,4 +1,4 @@
-"""Where a scene wants its probes."""
+"""The grid of probes that a scene may give."""
 
 from typing import TYPE_CHECKING, Annotated, Self
 
@@ -7,7 +7,7 @@ from pydantic import Field, model_validator
 from glrt.scene.values import Triple, Value, Vector
 from glrt.settings import Cost, Editable
 
-MOST_PROBES = 4096  # of a grid
+MOST_PROBES = 4096  # in a grid
 Count = Annotated[int, Field(ge=2, le=64)]
 
 

@@ -35,11 +35,11 @@ SUN_GROUP = "sun"
 
 
 class Finish(NamedTuple):
-    """What the surface of an object is like: of one material there may be several."""
+    """Material, light group and emitting side of an object; a material may have several."""
 
     material: str
-    group: str = ""  # light group of what it emits; empty for what emits nothing
-    is_one_sided: bool = False  # emits from its front alone
+    group: str = ""  # light group of its emission; empty if it emits nothing
+    is_one_sided: bool = False  # whether it emits from its front alone
 
 
 class Scene(SceneFields):
@@ -59,12 +59,13 @@ class Scene(SceneFields):
         title: str | None = None,
         folder: str | Path = ".",
     ) -> Self:
-        """A scene from values: models such as `glrt.Sphere`, or dicts with the keys of scene files.
+        """Build a scene from models such as `glrt.Sphere`, or dicts with the keys of scene files.
 
         Objects name their material by a key of `materials`. A vector or a colour is a list, a tuple
-        or an array of shape (3,), a number also one of numpy's. What is left out has the default of
-        scene files. Files that the scene names are read from `folder`. Raises `SceneError`, one
-        paragraph that names each mistake as in a file.
+        or an array of shape (3,); a number may also be one of numpy's. Values that are left out
+        have the defaults of scene files. Files that the scene names are read from `folder`. Raises
+        `SceneError` with one paragraph that names up to three mistakes, as in a file, and the
+        number of others.
         """
         tables = to_tables(
             title=title,
@@ -82,9 +83,9 @@ class Scene(SceneFields):
     def save(self, path: str | Path) -> None:
         """Write a scene file, with a name in .toml, that `load` reads back as an equal scene.
 
-        Files that the scene names are copied beside it where they are not there. Raises
-        `UsageError` for another suffix, and where another file has the name of a copy;
-        `RenderError` if a file cannot be written: an existing one is then unchanged.
+        Files that the scene names are copied next to it if they are not there. Raises `UsageError`
+        for another suffix, and if another file has the name of a copy. Raises `RenderError` if a
+        file cannot be written: an existing one is then unchanged.
         """
         file = Path(path)
         if file.suffix.lower() != ".toml":
@@ -104,21 +105,21 @@ class Scene(SceneFields):
 
     @property
     def meshes(self) -> tuple[Mesh, ...]:
-        """Those of them that are meshes."""
+        """The visible meshes."""
         return tuple(thing for thing in self.visible if isinstance(thing, Mesh))
 
     def finish(self, thing: Object) -> Finish:
-        """What the surface of an object is like."""
+        """Return the finish of an object's surface."""
         return self._finish(thing.material, thing.group, thing.is_one_sided)
 
     def _finish(self, name: str, group: str | None, is_one_sided: bool) -> Finish:
-        material = self.materials.get(name)  # one that is missing is told elsewhere
+        material = self.materials.get(name)  # a missing one is reported elsewhere
         if not isinstance(material, Opaque) or not material.emits:
             return Finish(name)
         return Finish(name, group or material.group or name, is_one_sided)
 
     def _finishes(self, things: Iterable[Object]) -> list[Finish]:
-        """Each once, by material in the order of the file."""
+        """Return the finishes of objects, each once, in the order of materials in the file."""
         places = {name: place for place, name in enumerate(self.materials)}
         told = dict.fromkeys((it.material, it.group, it.is_one_sided) for it in things)
         found = dict.fromkeys(self._finish(*one) for one in told)
@@ -126,32 +127,32 @@ class Scene(SceneFields):
 
     @property
     def finishes(self) -> list[Finish]:
-        """Those of the visible objects, each once, by material in the order of the file."""
+        """Finishes of the visible objects, each once, in the order of materials in the file."""
         return self._finishes(self.visible)
 
     @property
     def light_groups(self) -> dict[str, float]:
-        """Intensity of every light group: those of the lamps in their order, then the sky's."""
+        """Intensity of every light group: the lamps' groups in order, then sun and background."""
         suns = [SUN_GROUP] if self.sun else []
         groups = [*self._lamp_groups(), *suns, SKY_GROUP]
         return {group: self._intensity(group) for group in groups}
 
     @property
     def background_colors(self) -> tuple[Radiance, ...]:
-        """The gradient of the background, intensity included."""
+        """Radiance of the background's gradient, from below to above, intensity included."""
         intensity = self._intensity(SKY_GROUP)
         return tuple(_scaled(color, intensity) for color in self.background.gradient)
 
     @property
     def sun_radiance(self) -> Radiance:
-        """Of the sun, intensity included; black without one."""
+        """Radiance of the sun, intensity included; black without a sun."""
         if self.sun is None:
             return BLACK
         return _scaled(self.sun.radiance(self.sun_irradiance), self._intensity(SUN_GROUP))
 
     @property
     def sun_irradiance(self) -> Radiance:
-        """What a surface receives that faces the sun, at intensity 1: as given, or the model's."""
+        """Irradiance of a surface that faces the sun, at intensity 1: given, or the sky model's."""
         sky = self.background.sky
         if self.sun is None:
             return BLACK
@@ -159,25 +160,25 @@ class Scene(SceneFields):
 
     @property
     def sky(self) -> SkyPicture | None:
-        """The image of all directions; None where the background is a colour or a gradient."""
+        """The image of the sky in all directions; None for a background of colour or gradient."""
         return sky_picture(self.background, self.sun)
 
     def emission(self, finish: Finish) -> Radiance:
-        """Radiance of a surface, intensity of its group included; black for one without light."""
+        """Return the radiance of a finish, its group's intensity included; black if no lamp."""
         material = self.materials.get(finish.material)
         if not finish.group or not isinstance(material, Opaque):
             return BLACK
         return _scaled(material.emission, self._intensity(finish.group))
 
     def emission_of(self, thing: Object) -> Radiance:
-        """Radiance of an object, intensity of its light group included."""
+        """Return the radiance of an object, intensity of its light group included."""
         return self.emission(self.finish(thing))
 
     def _intensity(self, group: str) -> float:
         return self.lights.get(group, 1.0)
 
     def _lamp_groups(self) -> Iterator[str]:
-        """By material; a lamp that no object is made of has a group, too."""
+        """Yield the lamps' groups by material; a lamp material that no object uses has one, too."""
         found: dict[str, dict[str, None]] = {name: {} for name in self.materials}
         for finish in self._finishes(self.objects):
             if finish.group:
@@ -197,7 +198,7 @@ class Scene(SceneFields):
 
 
 def with_lights(scene: Scene, intensities: Mapping[str, float]) -> Scene:
-    """The scene with other intensities of some light groups.
+    """Return the scene with other intensities of some light groups.
 
     Raises `SceneError` for a group that the scene lacks and for an intensity out of range.
     """
@@ -225,10 +226,10 @@ def _object_problems(scene: Scene) -> Iterator[tuple[Place, str]]:
     missing: set[str] = set()
     for index, item in enumerate(scene.objects):
         if lacks_material(item):
-            continue  # its file has them
+            continue  # its file has materials
         material = scene.materials.get(item.material)
         if material is None and item.material not in missing:
-            missing.add(item.material)  # named once, where it is used first
+            missing.add(item.material)  # reported once, where it is used first
             advice = unknown("material", item.material, sorted(scene.materials))
             yield ("objects", index, "material"), advice
         if item.shape in _NO_COORDINATES and isinstance(material, Opaque) and material.textures:
@@ -252,7 +253,7 @@ def _light_problems(scene: Scene) -> Iterator[tuple[Place, str]]:
         if max(scene.emission(finish)) > LARGEST:
             what = f"emission of material {quoted(finish.material)}"
             yield ("lights", finish.group), _too_bright(what)
-    dark = {thing.group for thing in scene.objects}  # of objects that may emit one day
+    dark = {thing.group for thing in scene.objects}  # groups of objects that may emit later
     for group in scene.lights:
         if group not in groups and group not in dark:
             yield ("lights", group), unknown("light group", group, sorted(groups))

@@ -21,25 +21,25 @@ Vector = NDArray[np.float64]
 LIGHT, GROUND = "studio light", "studio ground"  # names of objects and materials
 SKY = {"bottom": [0.23] * 3, "horizon": [0.23] * 3, "top": [0.65] * 3}  # radiance
 
-LEAST_RADIUS = 1e-9  # of a model, scene units
-_LEAST_EMISSION = 0.05  # mean radiance over all surfaces of a model that lights itself
+LEAST_RADIUS = 1e-9  # radius of a model, in scene units
+_LEAST_EMISSION = 0.05  # least mean radiance over all surfaces of a model that lights itself
 _UP = np.array([0.0, 1.0, 0.0])
-_TOWARDS = np.array([-0.75, 1.0, 0.55])  # the lamp: to the right, up and to the back of the camera
-_LEAST_DISTANCE = 3.0  # of the lamp from the middle, in radii of the model
-_EDGE = 0.8  # of the lamp, in its distance
+_TOWARDS = np.array([-0.75, 1.0, 0.55])  # the lamp: along the camera's right, up, and back
+_LEAST_DISTANCE = 3.0  # distance of the lamp from the middle, in radii of the model
+_EDGE = 0.8  # edge of the lamp, over its distance
 _EMISSION = (
     4.5,
     4.5,
     4.5,
-)  # with SKY, radiance of about 1 on a white surface that faces lamp and sky
+)  # radiance; with SKY about 1 on a white surface that faces lamp and sky
 _GROUND_COLOR = (0.45, 0.45, 0.45)
 _GAP = 1e-3  # between model and ground, in radii: surfaces in one plane would hide one another
 
 
 def lights_itself(scene: Scene) -> bool:
-    """Whether the meshes of a scene emit enough to be seen by their own light.
+    """Return whether the meshes of a scene emit enough to be seen by their own light.
 
-    Unlit surfaces and images that glow do not count: they show a color and are no lamps.
+    Unlit surfaces and textures of emission do not count: they show a color and are no lamps.
     """
     area, flux = 0.0, 0.0
     for mesh in scene.meshes:
@@ -61,10 +61,10 @@ def _area(mesh: TriangleMesh) -> float:
 
 
 def with_studio(scene: Scene, source: str) -> Scene:
-    """The scene of one model in a studio, as its camera sees it.
+    """Return the scene of one model in a studio, as its camera sees it.
 
-    The lamp stands above and to the left of the camera, as far away as the camera, so that it
-    stays out of the picture. The ground is left out where the camera is below it.
+    The lamp stands above and to the left of the camera, as far away as the camera, so that it stays
+    out of the picture. The ground is left out where the camera is below it.
     """
     low, high = scene.meshes[0].triangles_of_file.box
     center, radius = (low + high) / 2, max(float(np.linalg.norm(high - low)) / 2, LEAST_RADIUS)
@@ -83,7 +83,7 @@ def with_studio(scene: Scene, source: str) -> Scene:
 
 
 def _towards(camera: Camera) -> Vector:
-    """The unit vector from the model to the lamp."""
+    """Return the unit vector from the model to the lamp, (3,)."""
     forward = np.subtract(camera.look_at, camera.position)
     right = np.cross(forward, camera.up) * (1.0, 0.0, 1.0)
     length = float(np.linalg.norm(right))
@@ -93,7 +93,7 @@ def _towards(camera: Camera) -> Vector:
 
 
 def _lamp(center: Vector, towards: Vector, distance: float) -> Table:
-    """A square that faces the middle: the normal of a quad is edge_u x edge_v."""
+    """Return a square that faces the middle: the normal of a quad is edge_u x edge_v."""
     across = np.cross(_UP, towards)
     across /= np.linalg.norm(across)
     along = np.cross(across, towards)

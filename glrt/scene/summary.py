@@ -1,4 +1,4 @@
-"""What a scene holds, a line for each sort of thing."""
+"""The contents of a scene in words, a line for each sort of thing."""
 
 from collections.abc import Iterable, Iterator
 
@@ -9,11 +9,11 @@ from glrt.scene.scene import SKY_GROUP, Scene
 from glrt.scene.shapes.kinds import KINDS
 from glrt.scene.shapes.mesh import Mesh
 
-MOST_NAMED = 8  # of a sort
+MOST_NAMED = 8  # names of a sort
 
 
 def summary(scene: Scene) -> list[str]:
-    """Objects by kind, materials by type, textures, and light groups with their intensity."""
+    """Return lines for objects by kind, materials by type, textures, and light groups."""
     return [
         f"objects    {', '.join(_objects(scene)) or 'none'}",
         f"materials  {'; '.join(_materials(scene)) or 'none'}",
@@ -55,7 +55,7 @@ def _textures(scene: Scene) -> Iterator[str]:
 
 
 def _lights(scene: Scene) -> Iterator[str]:
-    """The background too, unless it is black at any intensity."""
+    """Yield light groups with their intensities; the background only if it is not black."""
     has_sky = any(map(any, scene.background.gradient))
     for group, intensity in scene.light_groups.items():
         if group != SKY_GROUP or has_sky:
@@ -63,7 +63,7 @@ def _lights(scene: Scene) -> Iterator[str]:
 
 
 def few(words: Iterable[str]) -> str:
-    """The first of many, and how many others there are."""
+    """Return the first of many words, and how many others there are."""
     found = [shortened(word) for word in words]
     rest = f" and {len(found) - MOST_NAMED:,} more" if len(found) > MOST_NAMED else ""
     return ", ".join(found[:MOST_NAMED]) + rest

@@ -1,6 +1,6 @@
-"""Objects with the geometry of another one: a place has one surface, and the other is never seen.
+"""Twins: objects of equal geometry in one place, where one surface hides the others.
 
-Of two, an emitter comes before what does not emit to that side, then the one that the file names
+An emitter comes before an object that does not emit to that side, then the one that the file names
 first (shaders_glsl/shapes/coincident.glsl has the same order).
 """
 
@@ -27,9 +27,9 @@ class Twin(NamedTuple):
 
 @kept_for_the_same
 def twins(objects: Sequence[Shape], materials: Mapping[str, Material]) -> tuple[Twin, ...]:
-    """Each object that is left out since another one covers it, in the order of the scene.
+    """Return each object that is left out since another one covers it, in the order of the scene.
 
-    Objects are equal where the numbers that the kernel gets, float32, are. Glass and surfaces with
+    Objects are equal if the float32 numbers that the kernel gets are equal. Glass and surfaces with
     holes cover objects of their own material alone.
     """
     found = (_covered(group, objects, materials) for group in _groups(objects))
@@ -38,13 +38,13 @@ def twins(objects: Sequence[Shape], materials: Mapping[str, Material]) -> tuple[
 
 @kept_for_the_same
 def shown(objects: Sequence[Shape], materials: Mapping[str, Material]) -> tuple[int, ...]:
-    """Numbers of the objects that rays can meet: not hidden, and not covered by a twin."""
+    """Return the numbers of objects that rays can meet: not hidden, and not covered by a twin."""
     covered = {twin.unseen for twin in twins(objects, materials)}
     return tuple(n for n, it in enumerate(objects) if not it.hidden and n not in covered)
 
 
 def _groups(objects: Sequence[Shape]) -> Iterator[list[int]]:
-    """Numbers of visible objects of equal geometry, two or more each."""
+    """Yield numbers of visible objects of equal geometry, two or more each."""
     for kind in KINDS.values():
         numbers = [n for n, thing in enumerate(objects) if type(thing) is kind and not thing.hidden]
         if len(numbers) < 2 or not all(_is_read(objects[n]) for n in numbers):
@@ -75,7 +75,7 @@ def _in_order(outline: Any) -> Any:
 def _covered(
     group: Sequence[int], objects: Sequence[Shape], materials: Mapping[str, Material]
 ) -> list[Twin]:
-    """The objects of one geometry that none of the two sides shows."""
+    """Return the objects of one geometry that are seen from neither side."""
     things = [objects[n] for n in group]
     if any(isinstance(it, Mesh) and it.is_one_sided for it in things) and not _are_alike(things):
         return []
@@ -101,7 +101,7 @@ def _covered(
 
 
 def _are_alike(meshes: Sequence[Any]) -> bool:
-    """Whether meshes are one mesh, placed in the same way."""
+    """Return whether meshes are one mesh, with the same linear transform."""
     first = meshes[0]
     return all(
         (mesh.file, mesh.part) == (first.file, first.part)
@@ -111,7 +111,7 @@ def _are_alike(meshes: Sequence[Any]) -> bool:
 
 
 def _side(thing: Any, first: Any) -> int:
-    """1 where its normal is that of another one in its place, else -1."""
+    """Return 1 if an object's normal is that of the first one in its place, else -1."""
     if isinstance(thing, Disk):
         return 1 if np.dot(thing.normal, first.normal) > 0 else -1
     if isinstance(thing, Quad):

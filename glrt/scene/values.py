@@ -1,6 +1,7 @@
 """Numbers, vectors and colours of a scene, with their ranges.
 
-Lengths in scene units, angles in degrees, colours in linear sRGB, right-handed, y up.
+Lengths are in scene units, angles in degrees, and colours in linear sRGB. Coordinates are
+right-handed, with y up.
 """
 
 import math
@@ -17,7 +18,7 @@ from glrt.settings import Frozen
 SMALLEST = 1e-15
 LARGEST = 1e15
 
-# Sine of an angle: below it the cross product of two float32 vectors is mostly rounding error.
+# Sine of an angle below which the cross product of two float32 vectors is mostly rounding error.
 PARALLEL_SINE = 1e-6
 
 
@@ -37,7 +38,7 @@ def _with_a_length(vector: "Vector") -> "Vector":
 
 
 def require_tag(schema: dict[str, Any]) -> None:
-    """The tag has a default for Python alone; a file must name it."""
+    """Require the tag in a schema: its default is for Python alone, and a file must name it."""
     tags = [key for key, value in schema["properties"].items() if "const" in value]
     schema["required"] = tags + schema.get("required", [])
 
@@ -60,21 +61,22 @@ Angle = Annotated[float, Field(ge=-360_000, le=360_000)]  # degrees
 BLACK = (0.0, 0.0, 0.0)
 WHITE = (1.0, 1.0, 1.0)
 
-# What Python code may give where a scene has a number, and where it has a vector or a colour.
+# Values that Python code may give for a number, and for a vector or a colour.
 Number = float | np.floating[Any] | np.integer[Any]
 Triple = Sequence[Number] | NDArray[np.floating[Any]] | NDArray[np.integer[Any]]
 
 _HUGE = 10**400  # beyond every range; Python refuses to print much longer integers
-_PLAIN = {float, str}  # types that stay: a scene is full of them
+_PLAIN = {float, str}  # types that stay as they are: a scene is full of them
 _LISTS = (list, tuple)
-_TABLES = (dict, Mapping)  # the second alone takes several times as long to ask for
+_TABLES = (dict, Mapping)  # isinstance takes several times as long with Mapping alone
 
 
 def plain(value: Any, depth: int = 8) -> Any:
-    """The value as strict validation wants it: in Python's own numbers, lists as tuples.
+    """Return the value as strict validation needs it: Python's own numbers, and tuples for lists.
 
-    numpy's arrays count as lists, its numbers as numbers. No integer is too big to be printed. A
-    scene is 5 levels deep, down to the numbers of an object; what is far below is wrong anyway.
+    numpy's arrays count as lists, its numbers as numbers. Integers are limited to a size that can
+    be printed. A scene is 5 levels deep, down to the numbers of an object; levels below `depth` are
+    left out, as they are wrong anyway.
     """
     if isinstance(value, np.ndarray):
         value = value.tolist()
@@ -96,10 +98,10 @@ def _number(value: Any) -> Any:
 
 
 class Value(Frozen):
-    """A value of a scene: it takes what scene files take, and numpy's arrays and numbers.
+    """A value of a scene: it accepts what scene files accept, and numpy's arrays and numbers.
 
-    Its fields have the types that it holds; an `__init__` for type checkers alone says what it
-    takes.
+    Its fields have the types that it holds. An `__init__` for type checkers alone declares what it
+    accepts.
     """
 
     model_config = ConfigDict(strict=True)
@@ -111,6 +113,6 @@ class Value(Frozen):
 
 
 class Tagged(Value):
-    """A value whose kind a scene file names."""
+    """A value with a tag, by which a scene file names its kind."""
 
     model_config = ConfigDict(json_schema_extra=require_tag)

@@ -25,17 +25,17 @@ from glrt.scene.summary import few
 from glrt.scene.twins import twins
 from glrt.settings import Settings
 
-ROUNDING = 2.0**-24  # of a float32, as a share of it
-HUGE = 1e4  # heights of the camera over a ball, or radii of one that it touches, in its radius
-LIKELY_IOR = 1.7  # below that of a gem: as liquids and glass have it against air
-DENSE_IOR = 1.9  # above that of nearly all glass
+ROUNDING = 2.0**-24  # relative rounding error of a float32
+HUGE = 1e4  # radius of a ball over the camera's height above it, or over a touching ball's radius
+LIKELY_IOR = 1.7  # below the index of gems: usual for liquids and glass against air
+DENSE_IOR = 1.9  # above the index of nearly all glass
 FINEST_PIXEL = 4 * ROUNDING  # radians: directions are known to one or two roundings
 
 Floats = NDArray[np.float64]
 
 
 def cautions(scene: Scene, settings: Settings) -> list[str]:
-    """A paragraph for each limit overstepped: where, by how much, and what to do."""
+    """Return a paragraph for each limit overstepped: where, by how much, and what to do."""
     found = (
         _narrow_pixels(scene, settings),
         _huge_ball(scene),
@@ -63,7 +63,7 @@ def _narrow_pixels(scene: Scene, settings: Settings) -> str:
 
 
 def _huge_ball(scene: Scene) -> str:
-    """The surface of a ball has the rounding error of its radius, however close the camera is."""
+    """Warn of a ball with a coarse surface: it has the rounding error of the ball's radius."""
     balls = _balls(scene)
     ratio, worst = max(_size_ratios(scene, balls), default=(0.0, 0))
     if ratio <= HUGE:
@@ -77,9 +77,10 @@ def _huge_ball(scene: Scene) -> str:
 
 
 def _size_ratios(scene: Scene, balls: list[int]) -> Iterator[tuple[float, int]]:
-    """Of large balls, the radius over the smallest thing that the surface is near to.
+    """Yield the radius of large balls over the least length near their surface, and their number.
 
-    Those are left out that are not HUGE beside the smallest ball, nor seen from near.
+    That length is the camera's distance from the surface, or the radius of a ball that touches it.
+    Balls are left out that are not HUGE next to the smallest ball and not seen from near.
     """
     center, radius = _places(scene, balls)
     heights = np.abs(np.linalg.norm(center, axis=1) - radius)
@@ -93,7 +94,7 @@ def _size_ratios(scene: Scene, balls: list[int]) -> Iterator[tuple[float, int]]:
 
 
 def _glass(scene: Scene) -> list[str]:
-    """A paragraph for each way in which glass lies to glass that is seldom meant."""
+    """Return a warning for each relation between solids of glass that is seldom meant."""
     glass = [
         i
         for i, thing in enumerate(scene.objects)
@@ -126,7 +127,7 @@ def _glass_to_glass(scene: Scene, relation: Relation, first: int, second: int) -
 
 
 def _dense_inside(scene: Scene, inner: int, outer: int) -> str:
-    """Where `ior` looks as if it were given against air, and not against the glass around."""
+    """Warn if `ior` seems to be given against air, and not against the glass around."""
     own, around = (_glass_of(scene, index).ior for index in (inner, outer))
     if not 1 < own < LIKELY_IOR or own * around < DENSE_IOR:
         return ""
@@ -150,7 +151,7 @@ def _glass_of(scene: Scene, index: int) -> Dielectric:
 
 
 def _walled_in(scene: Scene) -> str:
-    """A camera in a ball that is not glass; a lamp that may be in it too makes it a room."""
+    """Warn of a camera inside a ball that is not glass, unless a lamp may be inside as well."""
     walls = [i for i in _balls(scene) if _kind(scene, i) != "dielectric"]
     center, radius = _places(scene, walls)
     around = np.flatnonzero(np.linalg.norm(center, axis=1) < radius)
@@ -168,7 +169,7 @@ def _walled_in(scene: Scene) -> str:
 
 
 def is_dark(scene: Scene) -> bool:
-    """Whether nothing emits: the picture is black, and sure of it."""
+    """Return whether nothing emits, so that the picture is certain to be black."""
     emits = any(any(scene.emission(finish)) for finish in scene.finishes)
     return not (emits or any(map(any, (scene.sun_radiance, *scene.background_colors))))
 
@@ -189,7 +190,7 @@ def _dark(scene: Scene) -> str:
 
 
 def _twins(scene: Scene) -> str:
-    """Objects that are left out, as another one has their place."""
+    """Warn of objects that are left out, since another one has their place."""
     pairs = [(twin.unseen, twin.seen) for twin in twins(scene.objects, scene.materials)]
     if not pairs:
         return ""
@@ -201,7 +202,7 @@ def _twins(scene: Scene) -> str:
 
 
 def _shared_places(scene: Scene) -> str:
-    """Flat lamps that overlap other surfaces in one plane."""
+    """Warn of flat lamps that overlap other surfaces in one plane."""
     pairs = coincidence_of(scene).pairs
     if not pairs:
         return ""
@@ -216,7 +217,7 @@ def _shared_places(scene: Scene) -> str:
 
 
 def _repeated(scene: Scene) -> Iterator[str]:
-    """Triangles that stand in a file twice."""
+    """Yield a warning for each file that holds triangles twice."""
     meshes = [thing for thing in scene.objects if isinstance(thing, Mesh)]
     for file in dict.fromkeys(mesh.file for mesh in meshes):
         if file.triangles is not None and (count := file.triangles.repeated):
@@ -225,7 +226,7 @@ def _repeated(scene: Scene) -> Iterator[str]:
 
 
 def _unread(scene: Scene) -> Iterator[str]:
-    """What files of models say that no scene has."""
+    """Yield a warning for each model file with content that is left out."""
     meshes = [thing for thing in scene.objects if isinstance(thing, Mesh)]
     for file in dict.fromkeys(mesh.file for mesh in meshes if mesh.file.unread):
         where = ", ".join(file.libraries) or file.file
@@ -236,7 +237,7 @@ def _unread(scene: Scene) -> Iterator[str]:
 
 
 def _large_images(scene: Scene) -> str:
-    """Images that are made smaller."""
+    """Warn of images that are made smaller."""
     opaque = [it for it in scene.materials.values() if isinstance(it, Opaque)]
     images = {t.image for it in opaque for t in it.textures.values() if t.image is not None}
     texels = {image.file: image.texels.shape[:2] for image in images if image.texels is not None}
@@ -251,7 +252,7 @@ def _large_images(scene: Scene) -> str:
 
 
 def _reaches_into(ball: Sphere, lamp: Shape) -> bool:
-    """Whether some of a lamp's surface may lie in a ball, or on it."""
+    """Return whether some of a lamp's surface may lie in a ball, or on it."""
     middle = np.array(ball.center)
     if isinstance(lamp, Plane):
         normal = np.array(lamp.normal) / np.linalg.norm(lamp.normal)
@@ -268,7 +269,7 @@ def _balls(scene: Scene) -> list[int]:
 
 
 def _places(scene: Scene, balls: list[int]) -> tuple[Floats, Floats]:
-    """Centres relative to the camera, (n, 3), and radii, (n,)."""
+    """Return centres relative to the camera, (n, 3), and radii, (n,)."""
     found = [thing for i in balls if isinstance(thing := scene.objects[i], Sphere)]
     eye = np.array(scene.camera.position, np.float64)
     center = np.array([ball.center for ball in found], np.float64).reshape(-1, 3) - eye

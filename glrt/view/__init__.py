@@ -1,4 +1,4 @@
-"""The window.
+"""The window of `glrt view`.
 
 Modules, each importing only what stands above it:
 

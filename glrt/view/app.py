@@ -36,12 +36,12 @@ from glrt.view.viewport.picture import Picture
 from glrt.view.viewport.picture_view import PictureView
 from glrt.view.viewport.transform import clear_of
 
-SIZE = 0.07  # of half a new object, in distances from the camera to the pivot
+SIZE = 0.07  # half the size of a new object, in distances from the camera to the pivot
 
 
 @dataclass
 class App(CameraMoves):
-    """A session with its picture, and how the user wants to see it."""
+    """State of the window: a session, its picture, files, messages and preferences."""
 
     session: Session
     show: PictureView
@@ -53,30 +53,30 @@ class App(CameraMoves):
     pace: FrameBudget
     pivot: Vector
     shaders: Watch
-    selected: int | None = None  # number of an object
-    is_to_be_seen: bool = False  # what is selected, in the panel
+    selected: int | None = None  # number of the selected object
+    is_to_be_seen: bool = False  # whether the panel is to scroll to the selected object
     pair: Pair = field(init=False)
-    asked: Question | None = None  # that is on the screen
+    asked: Question | None = None  # the question on the screen
     leave: Callable[[], object] = nothing  # closes the window
-    rectangle: Rectangle = (0.0, 0.0, 1.0, 1.0)  # of the picture on the screen
+    rectangle: Rectangle = (0.0, 0.0, 1.0, 1.0)  # of the picture on the screen, in pixels
     zoom: Zoom = FIT
-    inspects: bool = False  # the pixel under the mouse
+    inspects: bool = False  # whether the values of the pixel under the mouse are shown
     paths: PathExplorer = field(init=False)
-    tour_step: int | None = 0  # that is shown; None: closed until the next start
-    tour_beside: tuple[float, float] = (0.0, 0.0)  # size of the window that its box was put in
+    tour_step: int | None = 0  # step on the screen; None: closed until the next start
+    tour_beside: tuple[float, float] = (0.0, 0.0)  # window size when the tour was placed
     outside: tuple[float, float] = (35.0, 25.0)  # degrees, of the view of paths from outside
     frame_seconds: float = 0.0
     sampling_seconds: float = 0.0  # of the last frame: for edits and samples
     progress: Progress = field(default_factory=Progress)
     blackness: Blackness = field(default_factory=Blackness)
-    unsaved: bool = False  # preferences
-    awaited: tuple[Action, int] | None = None  # the key that is to be chosen: which of an action
-    is_deaf: bool = False  # to keys, until they are let go
+    unsaved: bool = False  # whether preferences must be written
+    awaited: tuple[Action, int] | None = None  # action and index of the key that is being chosen
+    is_deaf: bool = False  # whether keys are ignored until they are released
     navigates: bool = False  # whether keys move in the panel
     was_busy: bool = False  # whether a widget had the keys a frame ago
 
     def __post_init__(self, source: str) -> None:
-        """Know what was opened."""
+        """Create the parts that depend on the session and on the opened source."""
         self.paths = PathExplorer(self.session.context)
         self.pair = Pair(self.session, self.show, self.restart)
         recent = self.preferences_file.with_name("recent.json")
@@ -85,58 +85,58 @@ class App(CameraMoves):
         )
 
     def edit_scene(self, gesture: str, make: Callable[[Scene], Scene]) -> None:
-        """Replace the scene by what is made of it; a scene that does not fit is told."""
+        """Replace the scene by the result of `make`; an invalid scene is reported, not raised."""
         with self.messages.reporting():
             self.session.edit(make(self.session.scene), gesture)
 
     def prefer(self, preferences: Preferences) -> None:
-        """Take other preferences, and keep them."""
+        """Replace the preferences; `keep_preferences` writes them."""
         self.preferences = preferences
         self.unsaved = True
 
     def keep_preferences(self) -> None:
-        """Write the preferences if they changed."""
+        """Write the preferences to their file if they changed; a failure is reported."""
         if self.unsaved:
             self.unsaved = False
             self.messages.complain(save_preferences(self.preferences, self.preferences_file))
 
     def show_scene(self, scene: Scene) -> None:
-        """Begin with a scene that was opened."""
+        """Reset the pivot and the selection for a scene that was opened."""
         self.pivot, self.selected = scene.camera.look_at, None
 
     def follow_files(self, now: float) -> None:
-        """Take in what another program has changed: the scene file, or the shaders."""
+        """Reload the scene file or the shaders if another program has changed them."""
         self.files.follow(now)
         if self.shaders.has_changed(now):
             self.reload_shaders()
 
     def reload_shaders(self) -> None:
-        """Compile the shader files as they are now; what the driver refuses is told."""
+        """Compile the shader files as they are now; errors are reported, not raised."""
         with self.messages.reporting(), files_reread():
             self.picture.reload_shaders()
             self.session.reload_shaders()
 
     @property
     def selected_shape(self) -> Shape | None:
-        """The selected object, unless it is gone."""
+        """The selected object; None if nothing is selected or the object no longer exists."""
         objects = self.session.scene.objects
         index = self.selected
         return objects[index] if index is not None and index < len(objects) else None
 
     def select(self, index: int | None) -> None:
-        """Select an object by its number, or none; the panel goes to it."""
+        """Select an object by its number, or nothing; the panel scrolls to the object."""
         self.selected, self.is_to_be_seen = index, index is not None
 
     def add(self, kind: str) -> None:
-        """A new object of a kind, at the pivot, as the selected one."""
+        """Add an object of a kind at the pivot, and select it."""
         self._add(lambda scene: with_new(scene, kind, self.pivot, SIZE * self.reach))
 
     def add_model(self, path: Path) -> None:
-        """The meshes of a model, at the pivot, as the selected object."""
+        """Add the meshes of a model at the pivot, and select the first."""
         self._add(lambda scene: with_model(scene, path, self.pivot, 2 * SIZE * self.reach))
 
     def duplicate(self) -> None:
-        """A copy of the selected object beside it, as the selected one."""
+        """Add a copy of the selected object above or below it, and select the copy."""
         if (shape := self.selected_shape) and self.selected is not None:
             copy = clear_of(shape, self.pivot, two_digits(SIZE * self.reach))
             self._add(partial(with_duplicate, index=self.selected, moved=copy))
@@ -148,58 +148,58 @@ class App(CameraMoves):
             self.select(count)
 
     def delete(self) -> None:
-        """Take the selected object away."""
+        """Delete the selected object."""
         if self.selected_shape and self.selected is not None:
             self.edit_scene("", partial(without_object, index=self.selected))
             self.selected = None
 
     def zoom_to(self, scale: float | None) -> None:
-        """Pixels of the screen for one of the picture; None: the whole picture."""
+        """Zoom to a number of screen pixels per picture pixel; None shows the whole picture."""
         self.zoom = self.zoom.to(scale) if scale else FIT
 
     def inspect(self) -> None:
-        """Show what the pixel under the mouse holds, or no more."""
+        """Show or hide the values of the pixel under the mouse."""
         self.inspects = not self.inspects
 
     def choose_paths(self) -> None:
-        """Let the next clicks choose a pixel, or select objects again."""
+        """Let clicks choose a pixel for its paths, or let them select objects again."""
         self.paths.is_choosing = not self.paths.is_choosing
 
     def end_paths(self) -> None:
-        """Let clicks select objects again; where they do, show no paths."""
+        """Let clicks select objects again; if they already do, hide the paths."""
         if self.paths.is_choosing:
             self.paths.is_choosing = False
         else:
             self.paths.forget()
 
     def ask_paths(self, x: float, y: float) -> None:
-        """Show the paths of the pixel at a place of the picture, from (0, 0) to (1, 1)."""
+        """Request the paths of the pixel at a place of the picture, from (0, 0) to (1, 1)."""
         session = self.session
         if 0 <= x < 1 and 0 <= y < 1:
             pixel = int(x * session.settings.width), int(y * session.settings.height)
             self.paths.ask(session.scene, session.settings, pixel, session.samples)
 
     def pause(self) -> None:
-        """Stop gathering samples, or go on."""
+        """Pause or resume rendering."""
         self.session.paused = not self.session.paused
 
     def undo(self) -> None:
-        """Take back the last gesture; what was selected stays so, or what comes back is."""
+        """Undo the last gesture; the selection stays, or moves to an object that comes back."""
         self._step(self.session.undo, self.undoes)
 
     def redo(self) -> None:
-        """Do again what was taken back."""
+        """Redo the gesture that was undone last."""
         self._step(self.session.redo, self.redoes)
 
     @property
     def undoes(self) -> str:
-        """What undo takes back, in a few words; "" where there is nothing."""
+        """Edit that undo would take back, in a few words; "" if there is none."""
         before = self.session.history.before
         return f"Undo: {change_text(before, self.session.state)}" if before else ""
 
     @property
     def redoes(self) -> str:
-        """What redo does again; "" where there is nothing."""
+        """Edit that redo would make again, in a few words; "" if there is none."""
         after = self.session.history.undone
         return f"Redo: {change_text(self.session.state, after)}" if after else ""
 
@@ -210,12 +210,12 @@ class App(CameraMoves):
         self.selected = found_again(before, self.session.scene.objects, self.selected)
 
     def pick(self, x: float, y: float) -> Picked | None:
-        """What lies under a point of the picture, from (0, 0) upper left to (1, 1)."""
+        """Return the object under a point of the picture, (0, 0) upper left to (1, 1), or None."""
         settings = self.session.settings
         return pick(self.session.scene, settings.width / settings.height, x, y)
 
     def frame_selected(self) -> None:
-        """Look at the selected object so that it fills the frame."""
+        """Look at the selected object so that it fills the frame, and make it the pivot."""
         if shape := self.selected_shape:
             with self.messages.reporting():
                 reach = shape.reach if math.isfinite(shape.reach) else 1.0
@@ -224,11 +224,11 @@ class App(CameraMoves):
 
     @property
     def picture(self) -> Picture:
-        """What is on the screen."""
+        """Picture that is on the screen."""
         return self.show.picture
 
     def advance(self) -> None:
-        """A frame's work: edits, samples, and what is shown of them."""
+        """Do the work of a frame: apply edits, render samples, and draw them."""
         try:
             count = self.preferences.samples_per_frame
             chosen = self.preferences
@@ -242,23 +242,23 @@ class App(CameraMoves):
             if self.show.drawn == "picture":
                 self.blackness.look(self.session, self.picture)
             self.paths.advance()
-        except GlrtError as error:  # no room for a second film, or a shader that somebody edits
+        except GlrtError as error:  # no room for a second film, or a shader with an error
             self.show.view = "picture"
             self.messages.complain(str(error))
 
     def restart(self) -> None:
-        """Begin the picture anew, and its figures."""
+        """Restart the picture and its figures."""
         self.session.restart()
         self.progress = Progress()
 
     def keep(self) -> None:
-        """Keep the picture as A, to compare it with what comes."""
+        """Keep the picture as A, to compare it with later ones."""
         self.pair.go_on(False)
         with self.messages.reporting():
             self.show.keep(self.session)
 
     def look(self, now: float) -> None:
-        """Estimate the error where that is due."""
+        """Estimate the errors of A and B where that is due."""
         with self.messages.reporting():
             self.pair.look(now)
             look = self.progress.follow(self.session, now)

@@ -1,4 +1,4 @@
-"""How the user moves the camera, by mouse and keys."""
+"""Moves of the camera by mouse and keys."""
 
 from collections.abc import Callable
 from contextlib import suppress
@@ -15,7 +15,7 @@ from glrt.view.viewport import orbit
 
 
 class CameraMoves:
-    """The camera of a session, and the point that it turns about."""
+    """Moves the camera of a session; `pivot` is the point that it turns about."""
 
     session: Session
     preferences: Preferences
@@ -24,39 +24,39 @@ class CameraMoves:
 
     @property
     def camera(self) -> Camera:
-        """The camera as edited."""
+        """The edited camera of the session."""
         return self.session.scene.camera
 
     def place(self, camera: Camera) -> None:
-        """Put the camera somewhere else; moves in a row are one step to undo."""
+        """Replace the camera; consecutive moves are one step of undo."""
         self.session.edit(self.session.scene.model_copy(update={"camera": camera}), "camera")
 
     def _move(self, motion: Callable[..., Camera], *how: Any) -> None:
-        """Move the camera as one of `orbit` does; where that ends, the camera stops."""
+        """Move the camera by a function of `orbit`; a move that it refuses has no effect."""
         with suppress(UsageError):
             self.place(motion(self.camera, *how))
 
     def home(self) -> None:
-        """Back to the camera that the scene came with."""
+        """Return to the camera that the scene was opened with, and to its pivot."""
         self.pivot = self.session.opened.scene.camera.look_at
         self.place(self.session.opened.scene.camera)
 
     def focus_on(self, point: Vector) -> None:
-        """Make a point sharp; one behind the camera is left alone."""
+        """Focus the camera on a point; a point behind the camera is ignored."""
         depth = orbit.depth_of(self.camera, point)
         if depth > 0:
             near = max(SMALLEST, min(depth, LARGEST))
             self.place(replaced(self.camera, focus_distance=near))
 
     def turn_about(self, point: Vector) -> None:
-        """Make a point the pivot; no camera comes to one beyond all lengths."""
+        """Make a point the pivot; a point with a coordinate above LARGEST is refused."""
         if all(abs(part) <= LARGEST for part in point):
             self.pivot = point
         else:
             self.messages.complain("That point is too far away for a pivot.")
 
     def turn(self, across: float, down: float, about_camera: bool) -> None:
-        """Turn by a drag, given as shares of the window's width and height."""
+        """Turn about the camera or pivot by a drag, in shares of the window's width and height."""
         yaw = -across * self.preferences.turn_speed
         pitch = -down * self.preferences.turn_speed * (-1 if self.preferences.invert else 1)
         if about_camera:
@@ -65,20 +65,20 @@ class CameraMoves:
             self._move(orbit.orbited, self.pivot, yaw, pitch)
 
     def shift(self, across: float, down: float) -> None:
-        """Shift by a drag so that what is as far as the pivot follows the mouse, about."""
+        """Shift by a drag, so that points as far away as the pivot roughly follow the mouse."""
         self._move(orbit.moved, -across * self.reach, down * self.reach, 0)
 
     def walk(self, right: float, up: float, forward: float, seconds: float) -> None:
-        """Step along the camera's axes, at the speed that is preferred.
+        """Move along the camera's axes for some seconds, at the preferred speed.
 
-        The pivot goes along: else steps towards it would get ever shorter, and those away longer.
+        The pivot moves along: otherwise steps towards it would get shorter, and steps away longer.
         """
         step, before = seconds * self.preferences.walk_speed * self.reach, self.camera
         self._move(orbit.moved, right * step, up * step, forward * step)
         self.pivot = orbit.carried(self.pivot, before, self.camera)
 
     def wheel(self, clicks: float) -> None:
-        """Towards the pivot; in fly mode straight on."""
+        """Move towards the pivot by clicks of the wheel; in fly mode, straight ahead."""
         clicks *= self.preferences.wheel_speed
         if self.preferences.mode == "orbit":
             return self._move(orbit.dollied, self.pivot, clicks)
@@ -86,5 +86,5 @@ class CameraMoves:
 
     @property
     def reach(self) -> float:
-        """The distance that speeds are measured in: to the pivot."""
+        """Distance from the camera to the pivot, in which speeds are measured; at least 1e-6."""
         return max(orbit.distance_to(self.camera, self.pivot), 1e-6)

@@ -1,4 +1,4 @@
-"""A and B: a picture that goes on gathering beside the one that is edited."""
+"""Comparison of two pictures: A gathers samples while B is edited."""
 
 from collections.abc import Callable
 from typing import Literal
@@ -17,17 +17,17 @@ Pairing = Literal["equal time", "equal samples"]
 
 
 class Slot:
-    """A session of its own, on the same driver; B is that of the window."""
+    """Picture A with a session of its own, on the same driver; B is the window's session."""
 
     def __init__(self, state: State, other: Session, gl: moderngl.Context) -> None:
-        """Nothing is compiled before the first frames, which say that it will be."""
+        """Compile nothing yet; the first frames announce that a kernel will be compiled."""
         self.session = Session(state.scene, state.settings, other.context, pipeline=other.pipeline)
         self.picture = Picture(gl)
         self.progress = Progress()
         self._shown: object = None
 
     def has_turn(self, other: Session, pairing: Pairing) -> bool:
-        """Whether this frame is for A: both are to have the same time, or the same samples."""
+        """Whether this frame renders A, so that A and B get the same time, or the same samples."""
         own = self.session
         own.paused = other.paused
         if own.is_done or other.is_behind or other.is_preview:
@@ -39,11 +39,11 @@ class Slot:
         return own.rendering < other.rendering
 
     def advance(self, seconds: float, count: int) -> None:
-        """A frame of A. RenderError if the driver has no room for a second film."""
+        """Render a frame of A; RenderError if the driver has no room for a second film."""
         self.session.advance(seconds, count)
 
     def draw(self, display: Settings) -> None:
-        """Bring A's newest samples to the screen, exposed and tone-mapped as B."""
+        """Draw A's newest samples, exposed and tone-mapped as B."""
         session = self.session
         if not session.renderer or not session.is_shown:
             return
@@ -53,24 +53,24 @@ class Slot:
             self._shown = content
 
     def release(self) -> None:
-        """Free what the driver holds."""
+        """Release all OpenGL objects."""
         self.picture.release()
         self.session.release()
 
 
 class Pair:
-    """A as it was kept, and as it goes on where that is wanted; B is what the window edits."""
+    """Picture A, kept or gathering samples, and picture B, which the window edits."""
 
     def __init__(self, session: Session, show: PictureView, restart: Callable[[], None]) -> None:
-        """`restart` begins B anew."""
+        """`restart` restarts picture B."""
         self._session, self._show, self._restart = session, show, restart
-        self.slot: Slot | None = None  # A, while it goes on
+        self.slot: Slot | None = None  # A, while it gathers samples
         self.pairing: Pairing = "equal time"
-        self.is_beside = False  # side by side, else parted by a line
+        self.is_beside = False  # side by side, else divided by a line
 
     @property
     def picture(self) -> tuple[Picture, bool] | None:
-        """What holds A, and whether as a picture that was kept; None without A."""
+        """Picture that holds A, and whether A is its kept part; None without A."""
         if self.slot:
             return (self.slot.picture, False) if self.slot.picture.name else None
         kept = self._show.picture
@@ -78,11 +78,11 @@ class Pair:
 
     @property
     def is_done(self) -> bool:
-        """Whether nothing of A remains to be rendered."""
+        """Whether A needs no more rendering."""
         return self.slot is None or self.slot.session.is_done
 
     def advance(self, seconds: float, count: int) -> bool:
-        """Whether the frame was A's; RenderError if the driver has no room for a second film."""
+        """Render a frame of A on its turn, and return whether; RenderError without GPU memory."""
         slot = self.slot
         if not slot or self._show.view == "difference":
             return False
@@ -90,19 +90,19 @@ class Pair:
         if has_turn:
             try:
                 slot.advance(seconds, count)
-            except GlrtError:  # told once: B goes on alone
+            except GlrtError:  # reported once: B continues alone
                 self.go_on(False)
                 raise
         slot.draw(self._session.settings)
         return has_turn
 
     def look(self, now: float) -> None:
-        """Estimate the error of A where that is due."""
+        """Estimate the error of A if that is due."""
         if self.slot:
             self.slot.progress.follow(self.slot.session, now)
 
     def go_on(self, wanted: bool) -> None:
-        """Let A gather samples beside B, both from the start; or end that."""
+        """Let A gather samples together with B, both from the start; or stop that."""
         if self.slot:
             self.slot.release()
             self.slot = None
@@ -112,7 +112,7 @@ class Pair:
             self._restart()
 
     def swap(self) -> None:
-        """A becomes what is edited, and B what it is compared with; both begin anew."""
+        """Edit A, and compare it with the former B; both pictures restart."""
         kept, goes_on = self._show.kept, self.slot is not None
         if not kept:
             return

@@ -1,6 +1,6 @@
-"""What a widget needs to know of a value, read from the models: range, unit, help, cost.
+"""Descriptions of editable values, read from the models: range, unit, help and cost.
 
-Nothing here draws. A model's field says all of it once; see `glrt.settings` and
+Nothing here draws. A field of a model declares all of this once; see `glrt.settings` and
 the models in `glrt.scene`.
 """
 
@@ -28,7 +28,7 @@ MEANING = {
 
 @dataclass(frozen=True)
 class Control:
-    """One value of a model: `low` and `high` are its range, `slider` is a useful part of it."""
+    """An editable value; `low` and `high` are its range, `slider` is the useful part of it."""
 
     name: str
     kind: Kind
@@ -39,44 +39,44 @@ class Control:
     high: float | None = None
     slider: tuple[float, float] | None = None
     choices: tuple[str, ...] = ()
-    told: tuple[str, ...] = ()  # of each choice, what it is, where its word does not say it
-    reach: tuple[float, Cost] | None = None  # up to which an edit has this cost; and that beyond
+    told: tuple[str, ...] = ()  # explanation of each choice; empty if the words suffice
+    reach: tuple[float, Cost] | None = None  # largest value of this cost, and the cost beyond it
 
     @property
     def label(self) -> str:
-        """The name in words."""
+        """Name in words: blanks in place of underscores."""
         return self.name.replace("_", " ")
 
     def named(self, name: str) -> "Control":
-        """The same control under another name."""
+        """Return the same control with another name."""
         return replace(self, name=name)
 
     def costing(self, cost: Cost, reach: tuple[float, Cost] | None = None) -> "Control":
-        """The same control where an edit costs something else at present."""
+        """Return the same control with the cost that an edit has at present."""
         return replace(self, cost=cost, reach=reach)
 
     @property
     def costs(self) -> tuple[tuple[Cost, str], ...]:
-        """What an edit costs, and which edit: where that depends on the value."""
+        """Costs of an edit, each with the values that it applies to; "" for all values."""
         if not self.reach or (self.high is not None and self.high <= self.reach[0]):
             return ((self.cost, ""),)
         return (self.cost, f"up to {self.reach[0]:g}"), (self.reach[1], "above")
 
     @property
     def is_logarithmic(self) -> bool:
-        """Whether the range of the slider spans several magnitudes."""
+        """Whether the slider is logarithmic: its ends are positive and differ by over 100 times."""
         low, high = self.slider or (0, 0)
         return low > 0 and high / low > 100
 
 
 def controls_of(model: type[BaseModel], leave_out: tuple[str, ...] = ()) -> tuple[Control, ...]:
-    """A control for each field of a model that a widget can edit, in its order."""
+    """Return a control for each field of a model that a widget can edit, in its order."""
     fields = ((n, f) for n, f in model.model_fields.items() if n not in leave_out)
     return tuple(control for name, field in fields if (control := _control(name, field)))
 
 
 def control_of_items(model: type[BaseModel], field: str) -> Control:
-    """The control for any one value of a field that maps names to values."""
+    """Return the control for one of the values of a field that maps names to values."""
     whole = model.model_fields[field]
     item = FieldInfo.from_annotation(get_args(whole.annotation)[1])
     item.description = whole.description
@@ -87,22 +87,22 @@ def control_of_items(model: type[BaseModel], field: str) -> Control:
 
 
 def switch(name: str, help_text: str, cost: Cost) -> Control:
-    """A control for what is on or off, and is no field of a model."""
+    """Return a control for an on-off value that is not a field of a model."""
     return Control(name, "switch", help_text, cost)
 
 
 def choice(name: str, help_text: str, cost: Cost, choices: tuple[str, ...] = ()) -> Control:
-    """A control for one of several words, which is no field of a model."""
+    """Return a control for one of several words that is not a field of a model."""
     return Control(name, "choice", help_text, cost, choices=choices)
 
 
 def replaced(value: Model, **changes: Any) -> Model:
-    """A frozen model with other values of some fields; UsageError says what does not fit."""
+    """Return a copy of a frozen model with changed fields; UsageError for an invalid value."""
     return made(type(value), {**dict(value), **changes})
 
 
 def made(model: type[Model], values: Mapping[str, Any]) -> Model:
-    """A frozen model of these values; UsageError says what does not fit."""
+    """Return a frozen model of these values; UsageError for an invalid value."""
     try:
         return model.model_validate(values)
     except ValidationError as error:
@@ -136,7 +136,7 @@ def _control(name: str, field: FieldInfo) -> Control | None:
 
 
 def _unwrapped(annotation: Any, limits: list[Any]) -> tuple[Any, list[Any]]:
-    """The plain type below Annotated and Optional, and all limits met on the way."""
+    """Return the plain type below Annotated and Optional, and all limits found on the way."""
     if get_origin(annotation) is Annotated:
         plain, *more = get_args(annotation)
         inner = [part for item in more for part in _limits(item)]

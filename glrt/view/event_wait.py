@@ -1,4 +1,4 @@
-"""Wait for events where a frame would show what is on the screen already."""
+"""Wait for events while a new frame would show the same as the screen."""
 
 import time
 from collections.abc import Callable
@@ -7,18 +7,18 @@ from imgui_bundle import imgui
 
 import glfw  # isort: skip
 
-AWAKE = 1.0  # seconds after an event in which frames go on: tooltips come late, and errors
-SLICE = 0.1  # seconds between looks at files, dialogs and signals, which are no events
-LONGEST = 5.0  # seconds without a frame
+AWAKE = 1.0  # seconds of frames after an event: tooltips and errors appear late
+SLICE = 0.1  # seconds between checks of files, dialogs and signals, which are no events
+LONGEST = 5.0  # seconds without a frame, at most
 
 
 def has_input() -> bool:
-    """Whether there is input that the next frame will see."""
+    """Whether the next frame has input to handle."""
     return imgui.get_current_context().input_events_queue.size() > 0
 
 
 class EventWait:
-    """Frames go on while there is something to do, and a moment longer; then events begin them."""
+    """Lets frames continue while there is work and AWAKE seconds longer; then waits for events."""
 
     def __init__(
         self,
@@ -26,12 +26,12 @@ class EventWait:
         has_input: Callable[[], bool] = has_input,
         clock: Callable[[], float] = time.perf_counter,
     ) -> None:
-        """`pause` waits for an event, so many seconds at most."""
+        """`pause` waits for an event, at most for the given seconds."""
         self._pause, self._has_input, self._clock = pause, has_input, clock
-        self._awake = 0.0  # until when
+        self._awake = 0.0  # time until which frames continue
 
     def wait(self, is_quiet: Callable[[], bool]) -> float:
-        """Before a frame: until there is an event, or no quiet. Returns the seconds it took."""
+        """Wait before a frame for events or work, LONGEST at most; returns the seconds waited."""
         began = now = self._clock()
         while now - began < LONGEST and self._is_asleep(is_quiet, now):
             self._pause(SLICE)

@@ -7,15 +7,15 @@ from imgui_bundle import ImVec2, hello_imgui, imgui
 from glrt.core.text import escaped
 from glrt.view.state.folders import Listing, listing, nearest_folder
 
-_WIDTH, _ROWS = 34.0, 14.0  # letters' heights
+_WIDTH, _ROWS = 34.0, 14.0  # in heights of a letter
 _DOUBLE = imgui.SelectableFlags_.allow_double_click | imgui.SelectableFlags_.no_auto_close_popups
 
 
 class FileBrowser:
-    """A box above the window that shows a folder; it is drawn when it is asked for its answer."""
+    """A popup that shows a folder; each call of `answer` draws it."""
 
     def __init__(self, title: str, act: str, suffixes: tuple[str, ...], path: Path) -> None:
-        """`act` is the word on the button, `path` a folder, or a file to begin with."""
+        """`act` is the text of the button, `path` the folder to show or the file to propose."""
         self._title, self._act, self._suffixes = f"{title}###file browser", act, suffixes
         self._name = "" if path.is_dir() else path.name
         self._answer: str | None = None
@@ -28,7 +28,7 @@ class FileBrowser:
         self._listing: Listing = listing(self._folder, self._suffixes)
 
     def answer(self) -> str | None:
-        """The path that was chosen, "" for none; None while the user has not chosen."""
+        """Draw the popup; return the chosen path, "" if cancelled, None until the user chooses."""
         if not self._is_open:
             imgui.open_popup(self._title)
             self._is_open = True
@@ -36,7 +36,7 @@ class FileBrowser:
         imgui.set_next_window_pos(center, imgui.Cond_.appearing.value, ImVec2(0.5, 0.5))
         flags = imgui.WindowFlags_.always_auto_resize.value
         if not imgui.begin_popup_modal(self._title, None, flags)[0]:
-            return ""  # it was ended by Escape
+            return ""  # Escape closed it
         self._draw_folder()
         self._draw_names()
         self._draw_answers()
@@ -46,7 +46,7 @@ class FileBrowser:
         return self._answer
 
     def close(self) -> None:
-        """It ends when it is drawn no more."""
+        """Do nothing: the popup closes when it is no longer drawn."""
 
     def _draw_folder(self) -> None:
         if imgui.button("up"):
@@ -79,7 +79,7 @@ class FileBrowser:
         imgui.end_child()
 
     def _row(self, name: str) -> bool | None:
-        """Of the list: None where it was not clicked, else whether it was clicked twice."""
+        """Draw a row of the list; None without a click, else whether it was a double click."""
         is_picked = imgui.selectable(escaped(name), name == self._name, int(_DOUBLE))[0]
         left = imgui.MouseButton_.left.value
         return imgui.is_mouse_double_clicked(left) if is_picked else None
@@ -106,7 +106,7 @@ class FileBrowser:
             self._answer = ""
 
     def _choose(self, path: Path) -> None:
-        """A file; a folder that was typed is gone to."""
+        """Choose a file as the answer, or show a folder that was typed."""
         if path.is_dir():
             self._name = ""
             self._go(path)

@@ -1,4 +1,4 @@
-"""File dialogs: those of the desktop, or one inside the window where no program draws them."""
+"""File dialogs of the desktop, or one inside the window if the desktop has none."""
 
 import os
 import shutil
@@ -11,7 +11,7 @@ from imgui_bundle import portable_file_dialogs
 
 from glrt.view.file_browser import FileBrowser
 
-PROGRAMS = ("zenity", "kdialog", "matedialog", "qarma")  # that draw dialogs on Linux
+PROGRAMS = ("zenity", "kdialog", "matedialog", "qarma")  # programs that draw dialogs on Linux
 SCENES = [
     "Scenes, models and rendered pictures",
     "*.toml *.glb *.gltf *.obj *.ply *.stl *.png *.exr",
@@ -21,7 +21,7 @@ SCENE = ["Scene", "*.toml"]
 PICTURE = ["Picture", "*.png *.exr *.npy"]
 
 Open = Callable[[str], object]
-Save = Callable[[str, bool], object]  # a path, and whether the user agreed to replace what is there
+Save = Callable[[str, bool], object]  # a path, and whether the user agreed to replace a file there
 
 
 def are_there() -> bool:
@@ -43,7 +43,7 @@ class _OfDesktop:
         self._dialog = dialog
 
     def answer(self) -> str | None:
-        """The path that was chosen, "" for none; None while the user has not chosen."""
+        """Return the chosen path, "" if cancelled, None while the user has not chosen."""
         if not self._dialog.ready(0):
             return None
         chosen = self._dialog.result()
@@ -54,10 +54,10 @@ class _OfDesktop:
 
 
 class Dialogs:
-    """At most one dialog at a time; the window goes on while it is open."""
+    """At most one file dialog at a time; the window keeps drawing while it is open."""
 
     def __init__(self) -> None:
-        """None is open."""
+        """Begin with no open dialog."""
         self._dialog: _OfDesktop | FileBrowser | None = None
         self._use: Save | None = None
 
@@ -67,7 +67,7 @@ class Dialogs:
         return self._dialog is not None
 
     def ask_open(self, title: str, kinds: list[str], use: Open) -> None:
-        """Ask for a file that there is; `use` gets its path, unless the dialog is cancelled."""
+        """Ask for an existing file; `use` gets its path unless the dialog is cancelled."""
         self.close()
         if are_there():
             self._dialog = _OfDesktop(
@@ -78,7 +78,7 @@ class Dialogs:
         self._use = lambda path, _: use(path)
 
     def ask_save(self, title: str, path: str, kinds: list[str], suffix: str, use: Save) -> None:
-        """Ask for a file to write, which gets the suffix if it has none."""
+        """Ask for a file to write; a name without suffix gets `suffix`."""
         self.close()
         whole = Path(path).absolute()
         if are_there():
@@ -93,7 +93,7 @@ class Dialogs:
         self._use = with_suffix
 
     def poll(self, is_drawn: bool) -> None:
-        """Use what was chosen, if the user is done; `is_drawn`: within a frame that is drawn."""
+        """Pass the chosen path to `use`, once there is one; `is_drawn`: a frame is being drawn."""
         if not self._dialog or not self._use or isinstance(self._dialog, FileBrowser) != is_drawn:
             return
         path, use = self._dialog.answer(), self._use
@@ -105,7 +105,7 @@ class Dialogs:
             use(path, agrees)
 
     def close(self) -> None:
-        """End a dialog that is open: the window does not wait for it."""
+        """Close an open dialog without an answer."""
         if self._dialog:
             self._dialog.close()
         self._dialog = self._use = None

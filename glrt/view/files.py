@@ -1,4 +1,4 @@
-"""What is open in the window, where it came from, and where it goes."""
+"""Open and save scenes, models, pictures and recipes in the window."""
 
 import os
 from collections.abc import Callable
@@ -29,7 +29,7 @@ from glrt.view.state.session import Session
 
 Then = Callable[[], object]
 PICTURE_NAME = "picture.png"
-EDITED = ("objects", "materials", "lights", "background", "sun")  # what a save is asked for
+EDITED = ("objects", "materials", "lights", "background", "sun")  # edits of these are unsaved edits
 
 
 def nothing() -> None:
@@ -38,49 +38,49 @@ def nothing() -> None:
 
 @dataclass
 class Files:
-    """Scenes and pictures: opened, saved under free names, and nothing replaced unasked."""
+    """Opens and saves scenes and pictures; replaces no file without asking."""
 
     session: Session
     messages: Messages
     source: str  # what was opened: a path, or the name of a scene that comes with glrt
     recent_file: Path
-    show: Callable[[Scene], None]  # a scene that was opened
-    add: Callable[[Path], None]  # a model to the scene
+    show: Callable[[Scene], None]  # called with a scene that was opened
+    add: Callable[[Path], None]  # adds a model to the scene
     open_path: str = ""
     picture_path: str = field(default_factory=lambda: unused(PICTURE_NAME))
-    picture_name: str = PICTURE_NAME  # that numbers are put to
+    picture_name: str = PICTURE_NAME  # name that numbers are appended to
     scene_path: str = field(init=False)
     watch: Watch | None = field(init=False)  # of the scene file, if the scene came from one
     model: Path | None = field(init=False)  # the scene file whose comments a save keeps
-    saved: Scene = field(init=False)  # as the file has it, or as it was opened
-    written: Scene = field(init=False)  # with its camera and settings
+    saved: Scene = field(init=False)  # scene as in its file, or as it was opened
+    written: Scene = field(init=False)  # `saved` with its camera and settings
     recent: tuple[str, ...] = field(init=False)
     dialogs: Dialogs = field(default_factory=Dialogs)
 
     def __post_init__(self) -> None:
-        """Know what was opened."""
+        """Load the recent files, and remember where the scene came from."""
         self.recent = load_recent(self.recent_file)
         self._came_from(self.source)
 
     @property
     def is_changed(self) -> bool:
-        """Whether the scene has edits that no file has; camera and settings alone are none."""
+        """Whether the scene has unsaved edits; changed camera or settings do not count."""
         return self.is_lost or _differs(self.saved, self.session.scene)
 
     @property
     def is_lost(self) -> bool:
-        """Whether the file that the scene came from is no longer there."""
+        """Whether the file of the scene no longer exists."""
         return self.watch is not None and self.watch.has_lost
 
     @property
     def title(self) -> str:
-        """Of the window: what is open, and a star where a save would write something else."""
+        """Title of the window: what is open, with a star if the scene differs from its file."""
         name = Path(self.source).name if self.source else "recipe"
         is_other = _is_other(self.written, self.session.scene, self.session.settings)
         return f"{escaped(name)}{' *' if is_other or self.is_lost else ''} - glrt"
 
     def open(self, source: str) -> None:
-        """Another scene, or the scene, view and settings of a picture."""
+        """Open another scene, or the scene, view and settings of a picture."""
         with self.messages.reporting():
             scene, recipe = load_recipe(source)
             self._take(scene, recipe or scene.render)
@@ -88,11 +88,11 @@ class Files:
             self.messages.report(f"Opened {source}")
 
     def ask_open(self, source: str) -> None:
-        """Open it; where that would lose edits, ask first."""
+        """Open a file; ask first if that would lose edits."""
         self._unless_lost(f"Open {Path(source).name}?", lambda: self.open(source))
 
     def drop(self, path: str) -> None:
-        """A file that was dropped on the window; a model may be added to the scene."""
+        """Open a file dropped on the window; of a model, ask whether to add it to the scene."""
         if Path(path).suffix.lower() not in MODELS:
             return self.ask_open(path)
         self.messages.ask(
@@ -104,20 +104,20 @@ class Files:
         return None
 
     def add_from(self, path: str) -> None:
-        """The meshes of a model to the scene."""
+        """Add the meshes of a model to the scene."""
         self.add(Path(path))
 
     def browse_open(self) -> None:
-        """Choose a file to open."""
+        """Show a dialog to choose a file to open."""
         title = "Open a scene, a model or a picture"
         self.dialogs.ask_open(title, SCENES, self.ask_open)
 
     def ask_paste(self) -> None:
-        """Take the recipe in the clipboard; where that would lose edits, ask first."""
+        """Open the recipe in the clipboard; ask first if that would lose edits."""
         self._unless_lost("Paste the recipe?", self.paste_recipe)
 
     def paste_recipe(self) -> None:
-        """The scene, view and settings that a recipe in the clipboard tells."""
+        """Open the scene, view and settings of the recipe in the clipboard."""
         with self.messages.reporting():
             recipe = Recipe.from_json(imgui.get_clipboard_text(), "The clipboard")
             self._take(recipe.scene, recipe.taken)
@@ -125,7 +125,7 @@ class Files:
             self.messages.report("Opened the recipe in the clipboard")
 
     def copy_recipe(self) -> None:
-        """Put the recipe of the picture into the clipboard, as one line of JSON."""
+        """Copy the recipe of the picture to the clipboard, as one line of JSON."""
         with self.messages.reporting():
             recipe = self.session.image().recipe
             assert recipe
@@ -133,7 +133,7 @@ class Files:
             self.messages.report("Copied the recipe of this picture")
 
     def _came_from(self, source: str) -> None:
-        """A scene that came from a file is saved there again, and another one elsewhere."""
+        """Remember the source; a scene from a scene file is saved there, others to a new file."""
         self.source, self.watch = source, watch_for(source)
         self.model = scene_file_of(source) if source else None
         self.scene_path = source if self.watch else unused("scene.toml")
@@ -141,7 +141,7 @@ class Files:
         self._remember(source)
 
     def _mark_saved(self) -> None:
-        """What there is now is in a file."""
+        """Remember that a file holds the scene and settings as they are now."""
         self.saved = self.session.scene
         self.written = scene_with(self.saved, self.session.settings)
 
@@ -158,7 +158,7 @@ class Files:
         self.show(scene)
 
     def follow(self, now: float) -> None:
-        """Take in what another program has changed in the scene file."""
+        """Reload the scene file if another program has changed it."""
         if not (self.watch and self.watch.has_changed(now)):
             return
         if self.is_lost:
@@ -170,7 +170,7 @@ class Files:
             self.reload()
 
     def reload(self) -> None:
-        """The scene as its file has it now; the camera and the settings stay."""
+        """Read the scene file again; the camera and the settings stay."""
         with self.messages.reporting():
             found, is_edited = load(self.source), _differs(self.saved, self.session.scene)
             lost = "; undo brings your edits back" * is_edited
@@ -180,7 +180,7 @@ class Files:
             self.messages.report(f"Read {self.source} again{lost}")
 
     def save_scene(self, path: str = "") -> bool:
-        """Write the scene as it is to a path, by default that of the text box; whether it was."""
+        """Save the scene to a path, by default that of the text box; returns whether it worked."""
         self.scene_path = path or self.scene_path
         whole, file = scene_with(self.session.scene, self.session.settings), Path(self.scene_path)
         try:
@@ -199,7 +199,7 @@ class Files:
         return True
 
     def save_again(self, then: Then = nothing) -> None:
-        """Write the scene to the file that it came from; where there is none, ask for a name."""
+        """Save the scene to its own file, or ask for a name if it has none; then call `then`."""
         if self.watch:
             if self.save_scene(self.source):
                 then()
@@ -207,7 +207,7 @@ class Files:
             self.browse_scene(then)
 
     def browse_scene(self, then: Then = nothing) -> None:
-        """Choose where the scene is saved."""
+        """Show a dialog to choose where the scene is saved; then call `then`."""
 
         def use(path: str, is_agreed: bool) -> None:
             self.ask_save_scene(path, is_agreed, then)
@@ -215,12 +215,12 @@ class Files:
         self.dialogs.ask_save("Save the scene", self.scene_path, SCENE, ".toml", use)
 
     def ask_save_scene(self, path: str, is_agreed: bool = False, then: Then = nothing) -> None:
-        """Save the scene under a name; a file that is not its own is replaced on request alone."""
+        """Save the scene under a name; ask before a file other than its own is replaced."""
         is_own = bool(self.watch) and Path(path).absolute() == Path(self.source).absolute()
         self._unless_there(path, is_own or is_agreed, lambda: self.save_scene(path) and then())
 
     def save_picture(self, path: str = "") -> None:
-        """Write the picture, with its recipe, to a path, by default that of the text box."""
+        """Save the picture with its recipe to a path, by default that of the text box."""
         path = path or self.picture_path
         if not self.session.samples:
             return self.messages.complain("There is no picture yet.")
@@ -233,24 +233,24 @@ class Files:
         return None
 
     def ask_save_picture(self, path: str, is_agreed: bool = False) -> None:
-        """Save the picture; a file that is there is replaced on request alone."""
+        """Save the picture; ask before an existing file is replaced."""
         self._unless_there(path, is_agreed, lambda: self.save_picture(path))
 
     def browse_picture(self) -> None:
-        """Choose where the picture is saved."""
+        """Show a dialog to choose where the picture is saved."""
         self.dialogs.ask_save(
             "Save the picture", self.picture_path, PICTURE, ".png", self.ask_save_picture
         )
 
     def save_paths(self, found: PixelPaths) -> None:
-        """Write the paths of a pixel, which `glrt paths --replay` traces again."""
+        """Save the paths of a pixel to a new file, which `glrt paths --replay` traces again."""
         path = Path(unused("paths.json"))
         with self.messages.reporting():
             write_text(path, paths_to_json(found) + "\n")
             self.messages.report(f"Saved {_where(path)}")
 
     def close(self, leave: Then) -> None:
-        """Leave; where that would lose edits, ask first."""
+        """Close the window by `leave`; ask first if that would lose edits."""
         self._unless_lost("Close the window?", leave)
 
     def _unless_lost(self, title: str, act: Then) -> None:
@@ -273,7 +273,7 @@ class Files:
 
 
 def _where(file: Path) -> str:
-    """The name of a file, and its folder."""
+    """Return the name of a file and its folder in words."""
     whole = file.absolute()
     return f"{whole.name} in {whole.parent}"
 

@@ -1,4 +1,4 @@
-"""What the window tells the user: what was done, what went wrong, and what it asks."""
+"""Messages of the window to the user: finished actions, problems and questions."""
 
 import time
 from collections.abc import Callable, Iterator
@@ -9,12 +9,12 @@ from glrt.core.errors import GlrtError
 from glrt.core.text import escaped
 from glrt.view.state.session import Session
 
-SHOWN = 5.0  # seconds that a message of what was done stays in sight
+SHOWN = 5.0  # seconds for which a finished action is shown
 
 
 @dataclass(frozen=True)
 class Question:
-    """A box above the window: each answer by its name, with what it does. Escape does nothing."""
+    """Question of a popup; `answers` maps texts of buttons to actions, and Escape cancels."""
 
     title: str
     text: str
@@ -23,34 +23,34 @@ class Question:
 
 @dataclass
 class Messages:
-    """One message, one problem and one question at a time; the problem is the session's."""
+    """One message, one problem and one question at a time; the session holds the problem."""
 
     session: Session
-    last: str = ""  # what was done last
-    told: float = 0.0  # when, by time.perf_counter
+    last: str = ""  # last finished action
+    told: float = 0.0  # time of that action, by time.perf_counter
     question: Question | None = None
 
     def report(self, message: str) -> None:
-        """Show for a while what was done."""
+        """Show a finished action for SHOWN seconds."""
         self.last, self.told = escaped(message), time.perf_counter()
 
     def recent(self, now: float) -> str:
-        """What was done a moment ago; "" for nothing."""
+        """Return the action that finished less than SHOWN seconds ago; "" if there is none."""
         return self.last if now - self.told < SHOWN else ""
 
     def complain(self, problem: str) -> None:
-        """Show what went wrong, if anything did."""
+        """Show a problem; "" keeps the problem that is shown."""
         self.session.problem = escaped(problem) or self.session.problem
 
     @contextmanager
     def reporting(self) -> Iterator[None]:
-        """Tell the user of an error, and go on."""
+        """Show a GlrtError of the block as a problem, and continue."""
         try:
             yield
         except GlrtError as error:
             self.complain(str(error))
 
     def ask(self, title: str, text: str, **answers: Callable[[], object]) -> None:
-        """Put a question; names of answers have _ for a blank."""
+        """Ask a question; `_` in the name of an answer stands for a blank."""
         shown = {name.replace("_", " "): act for name, act in answers.items()}
         self.question = Question(escaped(title), escaped(text), shown)

@@ -1,4 +1,4 @@
-"""What the desktop knows of the window: its title, and files that are dropped on it."""
+"""The window on the desktop: its title, and files that are dropped on it."""
 
 from collections.abc import Callable
 from typing import Any
@@ -9,10 +9,10 @@ import glfw  # isort: skip  # the library of imgui_bundle, which must come first
 
 
 class Native:
-    """The open window of this process, on its thread."""
+    """The open window of this process, for use on the window's thread."""
 
     def __init__(self, drop: Callable[[str], object]) -> None:
-        """`drop` gets the path of a file that the user drops here, of several the first."""
+        """`drop` gets the path of a file dropped on the window; of several files, the first."""
         self._window: Any = glfw_window_hello_imgui()
         self._title = ""
 
@@ -24,7 +24,7 @@ class Native:
         listen(self._window, dropped)
 
     def entitle(self, title: str) -> None:
-        """Show a title."""
+        """Set the title of the window."""
         if title != self._title:
             self._title = title
             glfw.set_window_title(self._window, title)

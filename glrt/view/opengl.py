@@ -17,32 +17,32 @@ INSTEAD = "Use `glrt render`, which needs no window; `glrt doctor` shows which O
 
 
 class WindowLoader:
-    """What moderngl asks for: functions by name. The window's context is always current."""
+    """OpenGL functions by name, for moderngl; the window's context is always current."""
 
     def load_opengl_function(self, name: str) -> int:
-        """The address of an OpenGL function, 0 if there is none."""
+        """Return the address of an OpenGL function; 0 if there is none."""
         return ctypes.cast(glfw.get_proc_address(name), ctypes.c_void_p).value or 0
 
     def __enter__(self) -> "WindowLoader":
         return self
 
     def __exit__(self, *_: object) -> None:
-        """Stay current."""
+        """Leave the context current."""
 
     def release(self) -> None:
-        """The window owns the context."""
+        """Do nothing: the window owns the context."""
 
 
 def wrap_window() -> Context:
-    """The context of the window that is open."""
+    """Return the context of the open window for glrt."""
     loader: Any = WindowLoader()
     return Context(moderngl.create_context(require=FRAGMENT, context=loader), "window")
 
 
 def window_version(pipeline: Pipeline = "auto") -> int:
-    """The version of OpenGL to open a window with: 430, with compute shaders, else 410.
+    """Return the OpenGL version to open a window with: 430, with compute shaders, else 410.
 
-    Raises ContextError if no window can be opened, or none that the pipeline can do with.
+    Raises ContextError if no window can be opened, or only one too old for the pipeline.
     """
     problems: list[str] = []
     report: Any = glfw.set_error_callback

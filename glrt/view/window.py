@@ -1,4 +1,4 @@
-"""The window: its parts, its loop, and how it ends."""
+"""Main window: its parts, the loop over frames, and shutdown."""
 
 import time
 from collections.abc import Callable
@@ -38,16 +38,16 @@ from glrt.view.viewport.picture import Picture
 from glrt.view.viewport.picture_view import PictureView
 
 SIZE = (1240, 800)
-PANEL, FIGURES = 0.3, 0.22  # of the window's width, and of its height
+PANEL, FIGURES = 0.3, 0.22  # shares of the window's width, and of its height
 PARTS = ("Controls", "Figures", "Picture")
-MOST = 0.45  # of either, where the text is large
+MOST = 0.45  # largest share of either, for large text
 RATES = {True: 10, False: 30}  # frames a second without a GPU, and with one
 THEMES = {
     "dark": hello_imgui.ImGuiTheme_.darcula_darker,
     "light": hello_imgui.ImGuiTheme_.light_rounded,
 }
 GONE = "no window can be opened, though the display was there a moment ago"
-KEEP_EVERY = 2.0  # seconds between looks at whether preferences are to be written
+KEEP_EVERY = 2.0  # seconds between checks whether preferences must be written
 
 
 class Window:
@@ -58,7 +58,7 @@ class Window:
     def __init__(
         self, source: str, scene: Scene, settings: Settings, pipeline: Pipeline = "auto"
     ) -> None:
-        """Prepare; `run` opens it. ContextError if there is no display, or no OpenGL 4.1.
+        """Prepare the window, which `run` opens; ContextError without display or OpenGL 4.1.
 
         `pipeline` is compute, which needs OpenGL 4.3, or fragment; by default the first that works.
         """
@@ -74,9 +74,9 @@ class Window:
         self.params = self._params()
 
     def run(self) -> int:
-        """Show the window until it is closed, or the process is asked to end; the exit code.
+        """Show the window until it is closed or a signal ends it; returns the exit code.
 
-        ContextError if the display has gone since it was asked.
+        Raises ContextError if the display has disappeared since the window was prepared.
         """
         with Interruption().watched() as self._interruption:
             try:
@@ -124,7 +124,7 @@ class Window:
         return docking
 
     def _open(self) -> None:
-        """The window is there, and its context current."""
+        """Create the state of the window, once its OpenGL context is current."""
         source, scene, settings = self._opened
         plain, context = settings_for(settings, denoise="none"), wrap_window()
         preferences, problem = load_preferences(preferences_file())
@@ -146,7 +146,7 @@ class Window:
         self._native = Native(self.app.files.drop)
 
     def _render(self) -> None:
-        """Before a frame is drawn: keys, edits, samples, and the picture of them."""
+        """Do the work before a frame is drawn: keys, edits, samples and the picture."""
         self._began += self._wait.wait(self._is_quiet)
         app, now = self.app, time.perf_counter()
         app.frame_seconds = now - self._began
@@ -165,13 +165,13 @@ class Window:
             self.params.app_shall_exit = True
 
     def _poll(self, now: float) -> None:
-        """What is no event of the window: files, dialogs, and preferences to be written."""
+        """Handle what sends no event: changed files, dialogs, and preferences to be written."""
         self.app.follow_files(now)
         self.app.files.dialogs.poll(is_drawn=False)
         self._keep(now)
 
     def _is_quiet(self) -> bool:
-        """Whether a frame would show what is on the screen."""
+        """Whether a new frame would show the same as the screen."""
         now = time.perf_counter()
         self._poll(now)
         is_done = self.app.show.is_done(self.app.session) and self.app.pair.is_done
@@ -179,7 +179,7 @@ class Window:
         return is_done and not self._interruption.signal and self._reports(now) == self._told
 
     def _reports(self, now: float) -> tuple[object, ...]:
-        """What comes and goes by itself."""
+        """Return the texts that appear or disappear without an event."""
         messages = self.app.messages
         return self.app.session.problem, messages.recent(now), messages.question
 
@@ -190,23 +190,23 @@ class Window:
             self.app.keep_preferences()
 
     def _style(self) -> None:
-        """Follow the preferences of theme and size."""
+        """Apply the preferred theme and text size if they changed."""
         wanted = self.app.preferences.theme, self.app.preferences.scale
         if wanted != self._styled:
             self._styled = wanted
             hello_imgui.apply_theme(THEMES[wanted[0]])
             imgui.get_style().font_scale_main = wanted[1]
             _make_opaque(imgui.Col_.popup_bg)
-            imgui.get_style().frame_border_size = 1.0  # a light box on a light ground has an edge
+            imgui.get_style().frame_border_size = 1.0  # edges for light boxes on a light ground
 
     def _ask(self) -> None:
-        """What stands above the parts of the window."""
+        """Draw the popups above the panels: tour, question and file dialog."""
         draw_tour(self.app)
         draw_question(self.app)
         self.app.files.dialogs.poll(is_drawn=True)
 
     def _may_close(self) -> bool:
-        """Whether the window closes at once when the user wishes it; else that is asked."""
+        """Whether the window may close at once; otherwise ask about unsaved edits."""
         is_agreed = not self.app.files.is_changed
         if not is_agreed:
             self.app.files.close(self.app.leave)
@@ -239,13 +239,13 @@ def _part(label: str, place: str, draw: Callable[[], None]) -> hello_imgui.Docka
 
 
 def _make_opaque(part: imgui.Col_) -> None:
-    """A list over other text is read alone."""
+    """Make a colour of the style opaque, so that a list hides the text below it."""
     color = imgui.get_style().color_(part)
     imgui.get_style().set_color_(part, (color.x, color.y, color.z, 1.0))
 
 
 def _opengl(version: int) -> hello_imgui.OpenGlOptions:
-    """Without antialiasing: it takes a software driver as long again."""
+    """Return OpenGL options without antialiasing, which doubles the time of software drivers."""
     options = hello_imgui.OpenGlOptions()
     options.major_version, options.minor_version = divmod(version // 10, 10)
     options.use_core_profile, options.anti_aliasing_samples = True, 0
@@ -253,7 +253,7 @@ def _opengl(version: int) -> hello_imgui.OpenGlOptions:
 
 
 def _configure() -> None:
-    """The arrow keys move the camera, not from widget to widget; no caret blinks by frames."""
+    """Configure Dear ImGui: arrow keys move the camera, not the focus; no caret blinks."""
     hello_imgui.imgui_default_settings.setup_default_imgui_config()
     io = imgui.get_io()
     io.config_windows_move_from_title_bar_only = True

@@ -115,7 +115,7 @@ def _run(
 
 
 def _variance(image: Image) -> NDArray[np.float64]:
-    """Of what the picture shows, (H, W, 3), as it tells by itself."""
+    """Variance of the picture that is shown, (H, W, 3), as the picture itself estimates it."""
     noise = image.denoising.noise if image.denoising else image.stderr
     assert noise is not None  # it was denoised here
     return np.square(noise, dtype=np.float64)

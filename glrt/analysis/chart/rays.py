@@ -18,21 +18,21 @@ _COUNT = "if (COUNT_RAYS) rays_so_far += 1.0;"
 
 
 class Rays(NamedTuple):
-    """Camera, scattered and shadow rays, or their weights, for each pixel of a frame."""
+    """Rays per pixel of a frame, or their weights: camera, scattered and shadow rays."""
 
-    sample: float  # of a sample
+    sample: float  # rays of a sample
     block: int = 1  # samples that share a set of probes
-    set: float = 0.0  # to warm it up
-    once: float = 0.0  # to place probes and find what they see
+    set: float = 0.0  # rays to warm it up
+    once: float = 0.0  # rays to place probes and find the distances that they see
 
     def of(self, samples: int) -> float:
-        """Of so many samples, those of probes among them."""
+        """Rays of `samples` samples per pixel, including those of probes."""
         sets = math.ceil(samples / self.block) if self.set else 0
         return samples * self.sample + sets * self.set + self.once
 
 
 def rays_of(scene: Scene, settings: Settings, context: Context) -> Rays:
-    """The mean numbers over the whole frame."""
+    """Count the rays of a scene, on average over the whole frame."""
     counter = Renderer(scene, settings, context, tier="baked", variant=COUNTING)
     try:
         return _counted(counter)
@@ -52,7 +52,7 @@ def _counted(counter: Renderer) -> Rays:
 
 
 def counting_variant(followed: float, shadow: float, lookup: float = 0.0) -> Variant:
-    """COUNTING with weights: of camera and scattered rays, of shadow rays, of a look at probes."""
+    """COUNTING with weights: of camera and scattered rays, of shadow rays, of lookups of probes."""
     start, end = read(_PROBES).split(_LOOKUP)
     texts = {_PROBES: f"{start}rays_so_far += {float(lookup)!r};\n    {_LOOKUP}{end}"}
     for file, weight in ((_FOLLOWED, followed), (_SHADOW, shadow)):

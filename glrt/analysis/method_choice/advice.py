@@ -25,14 +25,14 @@ from glrt.settings import MAX_SAMPLES, Settings, settings_for
 
 _DOUBT = ", which is not to be believed (few samples carry much of its light)"
 SHARE = 0.5  # most time of the measurement, relative to what is left of `--time`
-# What decided, as recipes tell it.
+# The reasons for a decision, as recipes store them.
 BY_WORK = "auto: counted work"
 BY_WORK_IN_TIME = "auto: counted work, within half of --time"
 FOR_LACK_OF_TIME = "auto: the default, since half of --time was too short"
 
 
 class Choice(NamedTuple):
-    """What was chosen for a render, and what decided, by the names of settings."""
+    """Settings and limits that were chosen for a render, and the reasons, by names of settings."""
 
     settings: Settings
     limits: Limits
@@ -52,7 +52,7 @@ def advise(arguments: argparse.Namespace, scene: Scene, settings: Settings) -> N
 
 
 def denoised_advice(verdict: Verdict, found: DenoisedChoice) -> str:
-    """What is said of the same picture denoised, where fewer samples suffice so."""
+    """A sentence about the denoised picture, for which fewer samples suffice."""
     best = verdict.best
     plain = (best and best.samples_to(verdict.error)) or 0
     (width, height), samples = found.size, _count(found.samples, "sample")
@@ -113,7 +113,7 @@ def _verdict(
 
 @contextmanager
 def _steps(arguments: argparse.Namespace) -> Iterator[Tell]:
-    """Shows the steps of the measurement on stderr: one line on a terminal, else the first."""
+    """Show the steps of the measurement on stderr: one line on a terminal, else the first."""
     title = "Measuring which method suffices ..."
     if getattr(arguments, "quiet", False):
         yield lambda _step: None

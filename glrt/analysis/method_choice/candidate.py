@@ -1,4 +1,4 @@
-"""What is known of a method with a limit of bounces: its bias, its noise, its cost."""
+"""A method with a limit of bounces: its measured bias and noise, and its cost."""
 
 import math
 from dataclasses import dataclass
@@ -32,7 +32,7 @@ class Bias(NamedTuple):
 
 
 class OfProbes(NamedTuple):
-    """What probes cost a picture, of any number of pixels: work and seconds."""
+    """The cost of probes for a picture of any number of pixels: work and seconds."""
 
     work_of_set: float = 0.0
     seconds_of_set: float = 0.0
@@ -51,8 +51,8 @@ class Candidate:
     settings: Settings  # for the requested frame
     bias: Bias
     variance: float  # relative, of one sample: upper bound at a confidence of 97.5 %
-    work_per_sample: float  # of one pixel
-    seconds_per_sample: float  # of every pixel of the requested frame; nothing is chosen by it
+    work_per_sample: float  # work of a sample of one pixel
+    seconds_per_sample: float  # time of a sample of each pixel of the requested frame; only shown
     probes: OfProbes = NO_PROBES
 
     def samples_to(self, error: float) -> int | None:
@@ -73,10 +73,10 @@ class Candidate:
         return samples * self.work_per_sample + fixed / math.prod(self.settings.size)
 
     def seconds_of(self, samples: int) -> float:
-        """About how many seconds so many samples of each pixel take."""
+        """Approximate time of `samples` per pixel, in seconds."""
         fixed = self._sets(samples) * self.probes.seconds_of_set + self.probes.seconds_once
         return samples * self.seconds_per_sample + fixed
 
     def _sets(self, samples: int) -> int:
-        """Of probes: each lights a block of samples."""
+        """Number of sets of probes: each lights a block of samples."""
         return math.ceil(samples / self.settings.block)

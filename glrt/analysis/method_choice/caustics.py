@@ -25,29 +25,29 @@ from glrt.settings import Sampler, Settings, settings_for
 
 Values = Mapping[str, Any]  # of settings, by their names
 
-# What is tried, beside a render without particles.
+# The settings that are tried, in addition to a render without particles.
 CHOICES: tuple[Values, ...] = (
     {"particles": 0.25, "aimed": 0.5, "linked": 0.0},
     {"particles": 0.1, "aimed": 0.95, "linked": 0.0},
     LINKED,
 )
-LONG, SHORT = 1 << 12, 1 << 10  # pixels of the small frame at most: of long and shorter renders
-COUNTED = 1 << 10  # of the frame in which work is counted, which varies less
-SAMPLES = 64  # of each pixel: four observations with blocks of 16
-LEAST = 128  # times the samples of one of its pictures that a render must have, to be worth a pilot
-SEED = 0x43415553  # whatever that of the render is, so that it decides alike for each
+LONG, SHORT = 1 << 12, 1 << 10  # most pixels of the small frame: for long and for shorter renders
+COUNTED = 1 << 10  # most pixels of the frame in which work is counted, which varies less
+SAMPLES = 64  # per pixel: four observations with blocks of 16
+LEAST = 128  # a render is worth a pilot if it takes so many times the samples of a pilot's picture
+SEED = 0x43415553  # the same for every render, so that equal renders decide alike
 GAIN = 1.15  # times as efficient, at least: variances and work are estimates
 HOPELESS = 0.9  # times as efficient: where the first choice is not, the others are not tried
 CERTAIN = 5.0  # standard errors of the mean of a frame, beyond which two differ
-NEAR = 0.85  # of the best gain: later CHOICES find more of the light that a pilot has not seen
-AROUND = 2  # pixels on each side of one, whose mean is its level
+NEAR = 0.85  # of the best gain suffices: later CHOICES find more light that a pilot has not seen
+AROUND = 2  # pixels on each side of a pixel, whose mean is its level
 
 
 class Costs(NamedTuple):
-    """What a round of work costs with particles, in rounds without."""
+    """The cost of a round of work with particles, in rounds without particles."""
 
-    camera_side: float  # paths from the camera are weighed too
-    particle_side: float  # particles part from each other
+    camera_side: float  # paths from the camera are also weighed against particles
+    particle_side: float  # particles diverge from each other
 
 
 # On llvmpipe, 384 x 384 pixels, COSTS are 6 to 13 % more than the time that CHOICES without links
@@ -61,22 +61,22 @@ BY_PILOT = f"auto: variance and counted work of {SAMPLES} samples"
 
 
 class Finding(NamedTuple):
-    """What a pilot chose."""
+    """The choice of a pilot."""
 
-    settings: Settings  # of the render
-    gain: float  # how many times as efficient the best choice with particles is as none
+    settings: Settings  # settings of the render
+    gain: float  # efficiency of the best choice with particles, over that of none
 
     def decisions(self, given: Values = _NONE) -> dict[str, str]:
-        """What recipes tell, by the names of settings that were not `given`."""
+        """The reasons for recipes, by the names of settings that were not `given`."""
         more = () if self.settings.caustics == "off" else CHOICES[0].keys() - given.keys()
         return dict.fromkeys(["caustics", *sorted(more)], BY_PILOT)
 
 
 def may_gain(scene: Scene, settings: Settings) -> bool:
-    """Whether a pilot is worth its work: of a long render, where particles can be followed.
+    """Whether a pilot is worth its work: for a long render in which particles can be followed.
 
-    And where light comes by glass or by metal that is not too rough, which is what they are for,
-    but not from the sky alone, which is seldom small enough to make caustics.
+    The scene needs glass, or metal that is not too rough, since particles are for their caustics.
+    The sky must not be the only light: it is seldom small enough to make caustics.
     """
     facts = SceneFacts(scene)
     return (
@@ -96,8 +96,8 @@ def particles_worth(
 ) -> Finding | None:
     """The cheapest way to an error: without particles, or with one choice of them.
 
-    `given` are settings that are not to be chosen. None if few samples reach `error` anyway.
-    A shorter render tries one choice alone, in a smaller frame.
+    `given` are settings that stay as they are. None if few samples reach `error` anyway. A shorter
+    render tries a single choice, in a smaller frame.
     """
     without = settings_for(settings, caustics="off")
     pixels = _pilot_of(settings, settings.samples) or LONG
@@ -120,9 +120,9 @@ def particles_worth(
 
 
 def _choices(given: Values, has_links: bool, is_short: bool) -> list[Values]:
-    """Those that differ, with what is `given` in place of their own values.
+    """The choices that differ, with what is `given` in place of their own values.
 
-    Where it `is_short`, that with links alone, or the first where it has none.
+    If it `is_short`, only the choice with links, or the first one if none has links.
     """
     found: list[Values] = []
     for choice in CHOICES:
@@ -133,9 +133,9 @@ def _choices(given: Values, has_links: bool, is_short: bool) -> list[Values]:
 
 
 def _pilot_of(settings: Settings, samples: float) -> int:
-    """The pixels of a pilot that is a small share of so many samples of each pixel of the frame.
+    """The pixels of a pilot whose cost is a small share of a render of `samples` per pixel.
 
-    0 if none is.
+    0 if every pilot costs more.
     """
     whole = samples * settings.width * settings.height
     fitting = (
@@ -147,13 +147,13 @@ def _pilot_of(settings: Settings, samples: float) -> int:
 
 
 def _samples_to(error: float, plain: Image) -> float:
-    """How many samples of each pixel reach it without particles, about."""
+    """About how many samples per pixel reach the error without particles."""
     assert plain.error is not None  # there are four observations or more
     return SAMPLES * (plain.error / error) ** 2
 
 
 def _gain(scene: Scene, settings: Settings, plain: Image, context: Context, pixels: int) -> float:
-    """How many times as efficient these settings are as those of a plain picture."""
+    """The efficiency of these settings, over that of the settings of a plain picture."""
     image = _picture(scene, settings, context, pixels)
     level = _level(image.radiance)
     cost = _relative(level, image.stderr) * _slowed(scene, settings, context)
@@ -162,10 +162,10 @@ def _gain(scene: Scene, settings: Settings, plain: Image, context: Context, pixe
 
 
 def _level(radiance: Pixels) -> Pixels:
-    """What the errors of both pictures are relative to: the mean around each pixel.
+    """The level that the errors of both pictures are relative to: the mean around each pixel.
 
     A pixel that met a rare bright path is too bright, and its error is large. Relative to that
-    pixel alone it would count too little, in the picture whose level it is.
+    pixel alone, the error would count too little in the picture that the level is taken from.
     """
     edges = [(AROUND, AROUND), (AROUND, AROUND), (0, 0)]
     padded = np.pad(radiance, edges, mode="edge")
@@ -175,10 +175,10 @@ def _level(radiance: Pixels) -> Pixels:
 
 
 def _unseen(plain: Image, other: Image, level: Pixels) -> float:
-    """The least variance of a plain picture that lacks light which another has; 0 if it does not.
+    """Least variance of a plain picture that lacks light which another picture has; 0 otherwise.
 
-    Its own errors tell nothing of light that none of its paths has found, such as the caustic of a
-    tiny lamp. Were that found once, it would be by one path of one pixel: all of it at once.
+    Its own errors do not show light that none of its paths has found, such as the caustic of a tiny
+    lamp. If that light were found once, one path of one pixel would find all of it.
     """
     pixels = math.prod(plain.radiance.shape[:2])
     gap = float(np.mean(other.radiance - plain.radiance, dtype=float))
@@ -190,9 +190,9 @@ def _unseen(plain: Image, other: Image, level: Pixels) -> float:
 
 
 def _small(settings: Settings, pixels: int) -> Settings:
-    """Settings for the whole frame in so many pixels at most, without AOVs and denoiser.
+    """Settings for the whole frame in at most `pixels` pixels, without AOVs and denoiser.
 
-    Blocks are of 16 samples at most, so that the variance of SAMPLES is known.
+    Blocks have at most 16 samples, so that the variance of SAMPLES is known.
     """
     scale = min(1.0, math.sqrt(pixels / (settings.width * settings.height)))
     width, height = (max(1, int(scale * n)) for n in (settings.width, settings.height))
@@ -211,7 +211,7 @@ def _picture(scene: Scene, settings: Settings, context: Context, pixels: int) ->
 
 
 def _slowed(scene: Scene, settings: Settings, context: Context) -> float:
-    """How many times the work of a sample without particles one with them takes."""
+    """The work of a sample with particles, over that of a sample without them."""
     small = _small(settings, COUNTED)
     with counting(scene, small, context) as counter:
         both = work_per_sample(counter, settings.bounces, lambda _: True)

@@ -1,7 +1,7 @@
 """Whether fewer samples reach an error once they are denoised, for `inspect --error`.
 
-The method and bounces are those that were chosen, on a frame that is larger than theirs: what a
-filter gains grows with the picture, whose edges it blurs.
+Method and bounces are the chosen ones, on a larger frame than that of their measurement: a filter
+blurs edges, so its gain grows with the size of the picture.
 """
 
 import math
@@ -19,21 +19,21 @@ WORTH = 2  # times fewer samples than a plain picture takes, at least
 
 
 class DenoisedChoice(NamedTuple):
-    """A denoised picture that is surely below an error."""
+    """A denoised picture whose error is surely below a given one."""
 
     by: str
     samples: int
-    error: float  # with what the limit of bounces leaves out
-    high: float  # below which it is in 95 of 100 cases
+    error: float  # including what the limit of bounces leaves out
+    high: float  # upper limit of the error in 95 of 100 cases
     size: tuple[int, int]  # of the frame on which it was measured
 
 
 def denoised_choice(
     scene: Scene, chosen: Candidate, error: float, context: Context
 ) -> DenoisedChoice | None:
-    """The fewest samples, of doublings, that reach the error denoised, or None.
+    """The fewest samples, of doublings, that reach the error denoised; or None.
 
-    None also where half of the samples of a plain picture do not suffice.
+    None also if more than half of the samples of a plain picture are needed.
     """
     plain, bias = chosen.samples_to(error) or 0, chosen.bias
     samples = least_samples(chosen.settings.block)
@@ -55,7 +55,7 @@ def denoised_choice(
 
 
 def _on_small_frame(settings: Settings, samples: int) -> Settings:
-    """The whole picture, with fewer pixels."""
+    """Settings for the whole picture with fewer pixels, denoised."""
     scale = min(1.0, MOST_PIXELS / max(settings.size))
     width, height = (max(1, round(scale * side)) for side in settings.size)
     own: dict[str, Any] = {"width": width, "height": height, "samples": samples, "crop": None}

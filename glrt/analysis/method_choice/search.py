@@ -16,13 +16,13 @@ from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 from glrt.settings import MAX_SAMPLES, Settings, settings_for
 
-MOST_PIXELS = 16000  # of an edge of the frame in which a crop is measured
+MOST_PIXELS = 16000  # of the longest edge of the frame in which a crop is measured
 HEIGHT = 48  # of the measured frame, in pixels
 MOST_WIDE = 4  # times as wide as it is high; of a wider frame, the same number of pixels
 REFERENCE_WORK = 4e9  # most work of the reference: some 6 s on one core of llvmpipe
 REFERENCE_SHARE = 0.25  # most time of the reference, relative to the seconds that are allowed
-# What is chosen from without a look by the user: sets of probes take time to measure, and `error`
-# tells nothing of what probes blur.
+# Methods to choose from without asking the user: sets of probes take time to measure, and `error`
+# does not show what probes blur.
 WITHOUT_PROBES = tuple(name for name, traits in METHODS.items() if not traits.has_probes)
 TIE = 1.25  # LEADER is chosen if it takes at most this many times the work of the cheapest
 
@@ -33,7 +33,7 @@ class Verdict:
 
     error: float
     reference: Reference
-    candidates: tuple[Candidate, ...]  # the methods, those that leave light out first
+    candidates: tuple[Candidate, ...]  # the methods; the ones that leave light out come first
     beyond: dict[int, Bias]  # by limit of bounces: the bias from leaving out longer paths
     untried: tuple[str, ...] = ()  # methods that were not measured, for lack of time
 
@@ -49,7 +49,7 @@ class Verdict:
 
     @property
     def nearest(self) -> Candidate:
-        """The candidate that would reach the error so without a limit of samples."""
+        """The candidate that reaches the error with least work if samples are not limited."""
         nearest = min(self.candidates, key=lambda candidate: candidate.work_to(self.error))
         tied = self.leader.work_to(self.error) <= TIE * nearest.work_to(self.error)
         return self.leader if tied else nearest
@@ -81,11 +81,11 @@ def what_suffices(
 ) -> Verdict:
     """Measure methods on a small frame; `bounces` is their limit, or None to choose it, too.
 
-    `tell` is called with the name of each step.
+    `report` is called with the name of each step.
 
-    What is found is the same on every run of a driver, unless `seconds` end it: then methods that
-    are not measured yet are left out. Raises OutOfTimeError if no number of bounces is known to
-    suffice by then.
+    The result is the same on every run of a driver, unless `seconds` end it: then methods that are
+    not measured yet are left out. Raises OutOfTimeError if no number of bounces is known to suffice
+    by then.
     """
     check = until(time.perf_counter() + seconds) if seconds < math.inf else _always
     small = _small_frame(settings)
@@ -117,9 +117,9 @@ def _always(_renderer: Renderer | None) -> bool:
 
 
 def _small_frame(settings: Settings) -> Settings:
-    """Settings for the whole frame in HEIGHT rows, or in which the crop has some HEIGHT^2 pixels.
+    """Settings for the whole frame in HEIGHT rows, or for a crop of some HEIGHT^2 pixels.
 
-    Without AOVs and denoiser, which cost time and tell nothing here.
+    They have no AOVs and no denoiser, which would cost time without effect on the choice.
     """
     own = settings_for(settings, aov=(), denoise="none")
     most = math.sqrt(MOST_WIDE / (settings.width * settings.height))

@@ -5,7 +5,7 @@ With pictures x1, x2 of two seeds and the independent halves r1, r2 of the refer
 of bounces is estimated from the difference of two pictures of the same seed, which follow the same
 paths up to their limits, so that most of their noise cancels.
 
-All that is compared is counted. Seconds are noted for the people who read the result.
+All that is compared is counted work. Seconds are noted for the user who reads the result.
 """
 
 import math
@@ -28,7 +28,7 @@ from glrt.settings import Settings, settings_for
 
 SAMPLES = 128  # per pixel of each picture
 MOST_TRIED = 16 * SAMPLES  # the same, where the variance is not yet known precisely enough
-MOST_WORK = 2e9  # of the larger pictures of a method: some 3 s on one core of llvmpipe
+MOST_WORK = 2e9  # most work of the larger pictures of a method: some 3 s on one core of llvmpipe
 SEEDS = (0x53554646, 0x53554647)
 LIMITS = (1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 32, 48, 64, 96, 128, 192, 256)
 OF_FRAME = (
@@ -38,11 +38,11 @@ OF_FRAME = (
     "seed",
     "aov",
     "denoise",
-)  # settings that a trial has its own of
+)  # settings that a trial replaces by its own
 LEADER = "mis"  # the method whose bounces are measured
 _EXTRA_LIMITS = 4  # tried beyond the first that suffices: more bounces may need fewer samples
 _PRECISE = 0.1  # relative standard error below which a variance is taken as known
-_FAR = 2.0  # times an error, or the work of another: what differs as much needs no better look
+_FAR = 2.0  # times an error, or another's work: so large a difference needs no more samples
 
 
 class OutOfTimeError(Exception):
@@ -67,7 +67,7 @@ def until(deadline: float) -> Check:
 
 @dataclass(frozen=True)
 class Trial:
-    """Measures candidates for an error on a small frame, which `wanted` has `pixels` times of."""
+    """Measures candidates on a small frame; the frame of `wanted` has `pixels` times its pixels."""
 
     scene: Scene
     wanted: Settings
@@ -110,7 +110,7 @@ class Trial:
                     break
 
     def methods(self, variants: Sequence[Variant], leader: Candidate) -> list[Candidate]:
-        """A candidate for each variant while time is left, LEADER first, with its bounces."""
+        """Candidates while time is left, LEADER first; all but biased ones have its bounces."""
         first = [variant for variant in variants if _is_leader(variant)]
         found: list[Candidate] = []
         with suppress(OutOfTimeError):
@@ -125,7 +125,7 @@ class Trial:
         return self._tried(Variant(variant.name, settings), lambda _: leader.bias, leader)
 
     def _bias_of_model(self, pictures: Sequence["_Picture"]) -> Bias:
-        """The bias of a method that has one, measured against the reference."""
+        """The bias of a method that leaves light out, measured against the reference."""
         halves = (self.reference.first, self.reference.second)
         errors = [p.radiance - r for p, r in zip(pictures, halves, strict=True)]
         return self._bias(*errors)
@@ -151,7 +151,7 @@ class Trial:
         return candidate
 
     def _work(self, variant: Variant, bias: Bias, leader: Candidate) -> tuple[float, OfProbes]:
-        """Of a sample, and of probes; infinite, and not counted, if no number is enough."""
+        """Work of a sample, and of probes; infinite, and not counted, if the bias is too large."""
         if bias.least >= self.error:
             return math.inf, NO_PROBES
         if _is_leader(variant):
@@ -164,7 +164,7 @@ class Trial:
     def _is_settled(
         self, candidate: Candidate, pictures: Sequence["_Picture"], leader: Candidate
     ) -> bool:
-        """Whether more samples would change no choice: of few samples, or far from the leader."""
+        """Whether more samples would change no choice: few suffice, or far too many are needed."""
         noise = self._noise(pictures)
         needs_least = candidate.samples_to(self.error / _FAR) == candidate.settings.block
         bias = Bias(candidate.bias.least**2, 0.0)

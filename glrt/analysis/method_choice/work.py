@@ -1,9 +1,9 @@
 """The work of a sample, counted: the cost by which methods are chosen, without a clock.
 
 The unit is one round of the loops that find what a ray meets. A kernel that counts rays gives each
-ray its weight. The weights are those that predict best, relative to `mis`, how long the methods
-take on llvmpipe: to 18 % (root mean square) over the methods of 26 scenes; to 40 % over those with
-probes in 6 scenes.
+ray its weight. The weights are the best predictors of the methods' times on llvmpipe, relative to
+`mis`: to 18 % (root mean square) over the methods of 26 scenes; to 40 % over methods with probes in
+6 scenes.
 """
 
 from collections.abc import Callable, Iterator
@@ -21,23 +21,23 @@ from glrt.rendering.schedule import rounds_of_search
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
 
-SURFACE = 10  # of what a scattered ray meets: position, material, the next direction
-CAMERA = 6  # less than SURFACE for the rays of the camera, which are alike
-CLUSTER = 3  # of a cluster of lamps, or a part of one, weighed to choose a lamp
-PARTS = 2 * CONSTANTS["PARTS"]  # of the chosen cluster; they are weighed for two densities
-STRIPS = 5  # of a point on a quad lamp, even in solid angle
-LAMP = 2  # of a lamp in a loop over all, without its shadow ray
-LOOKUP = 250  # of the eight probes around a surface; twice of a gather, whose lanes part
-RESAMPLED = 600  # of the points that pixels around have kept
-BLENDED = 500  # beside a ray of an update of light: what it brings to 64 texels
-SEEN = 1100  # the same of distances, to 256
+SURFACE = 10  # work where a scattered ray meets a surface: position, material, next direction
+CAMERA = 6  # work that a camera ray saves there, since camera rays are alike
+CLUSTER = 3  # work to weigh a cluster of lamps, or a part of one, for the choice of a lamp
+PARTS = 2 * CONSTANTS["PARTS"]  # parts of the chosen cluster, which are weighed for two densities
+STRIPS = 5  # work of a point on a quad lamp, uniform in solid angle
+LAMP = 2  # work of a lamp in a loop over all lamps, without its shadow ray
+LOOKUP = 250  # work of the eight probes around a surface; twice for a gather, whose lanes diverge
+RESAMPLED = 600  # work of the points that neighbouring pixels have kept
+BLENDED = 500  # work of a ray of an update of light, after the ray: blending it into 64 texels
+SEEN = 1100  # the same for distances, into 256 texels
 
 Check = Callable[[Renderer], bool]
 
 
 @contextmanager
 def counting(scene: Scene, settings: Settings, context: Context) -> Iterator[Renderer]:
-    """A renderer that gives the weights of the rays of a sample in place of radiance."""
+    """A renderer that returns the weights of the rays of a sample in place of radiance."""
     plan = prepare(scene, settings)
     search, needs = rounds_of_search(plan.facts), plan.needs
     weighed = needs.clusters if needs.clusters > 1 else 0
@@ -68,7 +68,7 @@ def work_per_sample(counter: Renderer, bounces: int, check: Check) -> float:
 
 
 def work_of_probes(counter: Renderer) -> tuple[float, float]:
-    """Of a set, and once for a picture: the same for any number of pixels."""
+    """Work of a set of probes, and work once for a picture: the same for any number of pixels."""
     probes = counter.probes.tracer
     if not probes:
         return 0.0, 0.0

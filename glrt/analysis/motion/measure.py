@@ -1,6 +1,6 @@
 """The error of what is on the screen, frame by frame, for each temporal mode.
 
-By frames and counted rays: no clock decides, so that each run gives the same figures.
+Frames and rays are counted, and no clock decides, so that each run gives the same figures.
 """
 
 import math
@@ -19,28 +19,28 @@ from glrt.scene.scene import Scene
 from glrt.settings import Settings, settings_for
 
 FRAMES = 32
-DEGREES = 1.0  # a frame, of an orbit
+DEGREES = 1.0  # per frame of an orbit
 BEFORE, FACTOR = 16, 0.25  # still frames before the light is dimmed to a share of it
-SURFACES = 1.0  # ray for each pixel and view, by which history is found again
+SURFACES = 1.0  # rays per pixel and view, for the G-buffer by which history is found again
 
 Tell = Callable[[str, float], None]
 
 
 class Seen(NamedTuple):
-    """What a mode shows at the end of a frame."""
+    """The error of a mode's picture at the end of a frame."""
 
     frame: int  # from 1; of a light step, from the first frame under the other light
-    rays: float  # that the frame took, for each pixel
+    rays: float  # that the frame took, per pixel
     squared_error: float  # unbiased estimate; it may be negative
 
     @property
     def error(self) -> float:
-        """Relative RMS; 0 where the estimate of its square is below."""
+        """Relative RMS error; 0 where the estimate of its square is negative."""
         return math.sqrt(max(self.squared_error, 0.0))
 
 
 class Played(NamedTuple):
-    """What is played of a sequence, under the name of its track."""
+    """One way to play a sequence, with the name of its track."""
 
     name: str
     settings: Settings
@@ -49,7 +49,7 @@ class Played(NamedTuple):
 
 
 def by_probes(settings: Settings, hysteresis: Sequence[float]) -> list[Played]:
-    """By `ddgi`, with probes of their own for each picture, and live ones by each hysteresis."""
+    """Ways to play by `ddgi`: with new probes for each picture, and live by each hysteresis."""
     own, alone = settings_for(settings, method="ddgi", sampler="sobol"), Way("reset")
     live = [Played(f"ddgi, live {kept:g}", own, alone, kept) for kept in hysteresis]
     return [Played("ddgi", own, alone), *live] if live else []
@@ -65,7 +65,7 @@ class Track(NamedTuple):
 
     @property
     def mean_error(self) -> float:
-        """Over the frames that were looked at."""
+        """Mean error over the frames that were looked at."""
         return sum(one.error for one in self.seen) / len(self.seen)
 
 
@@ -80,10 +80,11 @@ def tracks_of(
     samples: int = 1,
     hysteresis: Sequence[float] = (),
 ) -> list[Track]:
-    """The orbit and the light step of a scene, by each way at `samples` samples a frame.
+    """Tracks of the orbit and the light step of a scene, by each way at `samples` a frame.
 
-    With some `hysteresis`, by live probes of each, too, and by probes of their own. Each look has a
-    reference of its own, two halves of at most `reference_samples` samples.
+    For each `hysteresis` there is a track of live probes, and one with new probes for each picture.
+    Each frame that is looked at has a reference of its own: two halves of at most
+    `reference_samples` samples.
     """
     all_played = [Played(way.name, settings, way) for way in ways] + by_probes(settings, hysteresis)
     rays = {one: rays_of(scene, one, context) for one in {p.settings for p in all_played}}
@@ -106,7 +107,7 @@ def tracks_of(
 
 
 def looks_of(frames: Frames) -> list[int]:
-    """Frames at which the screen is looked at: each of an orbit in steps, more after a step."""
+    """The frames to look at: the first four of an orbit or after a step, then every fourth."""
     if frames.name == "orbit":
         return [0, 1, 2, 3, *range(5, len(frames.scenes), 4)]
     after = range(BEFORE, len(frames.scenes))
@@ -137,7 +138,7 @@ def _seen(
 
 
 def _of_probes(rays: Rays, one: Played, number: int, is_new: bool, frames: Frames) -> float:
-    """Rays from probes in a frame, for each pixel; live ones are placed anew as the eye moves."""
+    """Rays from probes in a frame, per pixel; live ones are placed again when the eye moves."""
     if one.hysteresis is None or not number:
         return rays.set + rays.once if is_new else 0.0
     looks = 1 + (PUSHED + 1) * (frames.name == "orbit")

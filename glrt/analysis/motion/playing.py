@@ -1,4 +1,4 @@
-"""What a temporal mode shows of a moving picture: without a window and without a clock."""
+"""Play a moving picture as a temporal mode shows it: without a window and without a clock."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -27,12 +27,12 @@ def play(
     more: list[float] | None = None,
     hysteresis: float | None = None,
 ) -> Iterator[Picture]:
-    """What is on the screen at the end of each frame, of `samples` samples of each pixel.
+    """Yield what is on the screen at the end of each frame, with `samples` per pixel and frame.
 
-    Frame n takes its random numbers from seed `settings.seed` + n, so that the noise of one is not
-    that of another. `more` gets the samples of a pixel that each frame takes beside the film. With
-    a hysteresis probes go on from frame to frame, and each frame begins anew, whether or not
-    something moves.
+    Frame n takes its random numbers from seed `settings.seed` + n, so that frames have independent
+    noise. `more` receives the samples per pixel that each frame takes in addition to the film. With
+    a hysteresis, probes continue from frame to frame, and each frame restarts the film, whether or
+    not something moves.
     """
     first = sequence.scenes[0]
     renderer = Renderer(first, settings, context, pipeline=pipeline)
@@ -56,7 +56,7 @@ def play(
 
 
 def screen_of(renderer: Renderer, temporal: Temporal) -> Picture:
-    """The radiance that is shown now."""
+    """The radiance that is shown now, (H, W, 3)."""
     shown = temporal.show(renderer)
     with renderer.context.gl:
         texture = shown or renderer.weighed(renderer.plan.weights)

@@ -10,24 +10,24 @@ from glrt.scene.scene import Scene
 
 
 class Sequence(NamedTuple):
-    """A scene for each frame; frames that show the scene of the one before add samples to it."""
+    """A scene for each frame; a frame with the same scene as the one before adds samples to it."""
 
     name: str
     scenes: tuple[Scene, ...]
 
 
 def orbit(scene: Scene, frames: int, degrees: float) -> Sequence:
-    """The camera swings about the point that it looks at, by so many degrees a frame.
+    """The camera swings around the point that it looks at, by `degrees` a frame.
 
-    To one side for a quarter of the frames, to the other for a half, and back: it ends near where
-    it began, and does not leave the place that the scene was made to be seen from.
+    It goes to one side for a quarter of the frames, to the other for a half, and back. So it ends
+    near its start, and stays near the place that the scene was made to be seen from.
     """
     angles = [math.radians(degrees * _swing(frame, frames)) for frame in range(frames)]
     return Sequence("orbit", tuple(with_camera(scene, turned(scene.camera, a)) for a in angles))
 
 
 def light_step(scene: Scene, frames: int, at: int, factor: float) -> Sequence:
-    """A still camera; from frame `at` on all light has another intensity."""
+    """A still camera; from frame `at` on, `factor` scales the intensity of all lights."""
     groups = {finish.group for finish in scene.finishes if finish.group}
     lights = {name: factor * scene.lights.get(name, 1.0) for name in sorted(groups)}
     after = scene.model_copy(update={"lights": {**scene.lights, **lights}})
@@ -49,13 +49,13 @@ def turned(camera: Camera, angle: float) -> Camera:
 
 
 def pixels_a_frame(scene: Scene, height: int, degrees: float) -> float:
-    """How fast the middle of the picture moves in an orbit, for what is half as near."""
+    """Speed of the picture in an orbit, in pixels a frame, at half the distance of its centre."""
     camera = scene.camera
     tall = 2 * math.tan(math.radians(camera.fov) / 2)
     return height * math.radians(degrees) / tall
 
 
 def _swing(frame: int, frames: int) -> float:
-    """Steps from where it began: a triangle wave of one period."""
+    """Steps from the start: a triangle wave with a period of `frames`."""
     quarter = frames / 4
     return quarter - abs((frame + quarter) % frames - 2 * quarter)

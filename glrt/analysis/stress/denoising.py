@@ -23,7 +23,7 @@ Floats = NDArray[np.float64]
 
 SAMPLES = (4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096)
 WIDTHS = (0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 4.0)  # in pixels, of bars and stripes
-PICTURES, TRUE_OF_WIDTHS = 4, 4096  # of each width; samples of its truth
+PICTURES, TRUE_OF_WIDTHS = 4, 4096  # pictures of each width; samples of their truth
 FOV, NEAR, FAR = 40.0, 2.0, 3.0  # degrees; distances of bars and of the wall
 SIDE, TRUE = 24, 1 << 15  # edge of the frame in pixels; samples a pixel, of the truth
 SETTINGS: dict[str, Any] = {"width": SIDE, "height": SIDE, "bounces": 4, "aov": GUIDES}
@@ -36,7 +36,7 @@ SMALL = 24  # edge of those pictures in pixels
 def samples(lab: Lab) -> Sweep:
     """Error of a ball of glass and its shadow, by samples.
 
-    From as few as there can be to so many that noise is less than what a filter gets wrong.
+    From the fewest possible samples to so many that the noise is less than the filter's bias.
     """
     scene = scene_of(
         [
@@ -96,7 +96,7 @@ def stripes(lab: Lab) -> Sweep:
 
 
 def _before_a_wall(objects: list[Table]) -> Scene:
-    """What stands there, under a lamp beside the camera."""
+    """A scene with these objects before a wall, and a lamp next to the camera."""
     own = [plane([0, 0, -FAR], [0, 0, 1], "wall"), sphere([1.5, 1.5, 0], 0.5, "lamp")]
     materials = {"wall": matte(0.7), "dark": matte(0.1), "lamp": lamp(9.0)}
     return scene_of([*own, *objects], materials, {"fov": FOV})
@@ -127,7 +127,7 @@ def _by_width(lab: Lab, scene_by: Callable[[float], Scene], parameter: str) -> S
 
 
 def _compared(parameter: str, x: Sequence[float], errors: dict[str, list[float]]) -> Sweep:
-    """The first of the errors is that of what glrt shows, the last that of the plain picture."""
+    """A sweep of errors; the first is that of glrt's picture, the last that of the plain one."""
     name = next(iter(errors))
     return Sweep(
         parameter=parameter,
@@ -146,7 +146,7 @@ def _filtered(halves: tuple[Half, Half]) -> tuple[Pixels, Pixels]:
 
 
 def _error(radiance: NDArray[np.float32], truths: list[NDArray[np.float32]]) -> float:
-    """Against two renders, whose noise is independent."""
+    """Relative RMS error against two renders, whose noise is independent."""
     first, second = (truth.astype(np.float64) for truth in truths)
     mean = (first + second) / 2
     squares = (radiance - first) * (radiance - second)
@@ -154,9 +154,10 @@ def _error(radiance: NDArray[np.float32], truths: list[NDArray[np.float32]]) -> 
 
 
 def sparks(lab: Lab) -> Sweep:
-    """How far the estimated mean squared error lies from the true one, by the share of fireflies.
+    """Bias of the estimated mean squared error, in standard errors, by the share of fireflies.
 
-    A wall and a shadow that no guide tells. The mean brightness is the same at each share.
+    The picture is a wall with a shadow that no guide shows. Its mean brightness is the same for
+    each share.
     """
     draws, far = lab.count(DRAWS, 50), np.zeros((2, len(SHARES)))
     for place, share in enumerate(SHARES):
@@ -175,9 +176,9 @@ def sparks(lab: Lab) -> Sweep:
 
 
 def _drawn(rng: np.random.Generator, share: float) -> Floats:
-    """Of one picture how far two estimates of its squared error lie from the truth.
+    """How far two estimates of the squared error of one picture lie from the truth.
 
-    The second takes the error for the variance of two independent results.
+    The second estimate takes the error for the variance of two independent results.
     """
     bright = np.where(np.arange(SMALL) < SMALL // 3, 1.0, 0.5)[None, :, None]
     truth = bright * np.ones((SMALL, SMALL, 3))
@@ -190,7 +191,7 @@ def _drawn(rng: np.random.Generator, share: float) -> Floats:
 
 
 def _blurred(half: Half) -> Filtered:
-    """Means over 5 x 5 pixels: a filter that is wrong at edges and quick."""
+    """Means over 5 x 5 pixels: a quick filter that is wrong at edges."""
     own = np.full(half.radiance.shape[:2], 1 / 25, np.float32)
     return Filtered(window_mean(half.radiance, 2), own)
 

@@ -209,7 +209,7 @@ def fireflies(lab: Lab) -> Sweep:
 def _samples(lab: Lab, case: NoisyCase) -> Array:
     """The radiance of single samples, averaged over channels: one per pixel and seed.
 
-    All of a frame are NaN if one of them was not finite.
+    All values of a frame are NaN if one of its samples was not finite.
     """
     frames = []
     size: dict[str, Any] = {

@@ -1,4 +1,4 @@
-"""What temporal modes make of the samples of a still pixel: long series, fireflies, steps."""
+"""Temporal modes on the samples of a still pixel: long series, and fireflies."""
 
 from dataclasses import dataclass
 
@@ -95,7 +95,7 @@ class Series:
     is_bounded: bool = False
 
     def wrong_shares(self, lab: Lab, pixels: int) -> list[float]:
-        """Of all frames between a mark of MARKS and the one before, the share that is wrong."""
+        """The share of predictions that are wrong, from each mark of MARKS to the next."""
         constants = {"STATE": STATE, "IS_BOUNDED": self.is_bounded}
         probe = Probe(
             "wrong_frames(pixel, first, count)",
@@ -121,7 +121,7 @@ class Series:
 
 
 def still(lab: Lab) -> Sweep:
-    """Predictions of a pixel that nothing changes, over 100,000 frames of noisy grey light."""
+    """Predictions of an unchanging pixel, over 100,000 frames of noisy grey light."""
     pixels = lab.count(256, 64)
     errors = {
         name: Series(USUAL, bool(bounded)).wrong_shares(lab, pixels)
@@ -143,7 +143,7 @@ def still(lab: Lab) -> Sweep:
 SHARES = (0.001, 0.003, 0.01, 0.03, 0.1)  # of samples that are fireflies
 BRIGHT = 50  # times as bright as others
 LESS = 0.8
-SERIES = 200  # frames, of which the last half counts
+SERIES = 200  # frames; the last half counts
 RARE = """
 float firefly(int pixel, int frame, float share) {
     uint bits = pcg_hash(pcg_hash(uint(pixel) ^ 0x9E3779B9u) + uint(frame));
@@ -184,9 +184,9 @@ WAYS = {
 
 
 def outliers(lab: Lab) -> Sweep:
-    """Error of what is shown of a still pixel, some of whose samples are fifty times as bright.
+    """Error of the picture of a still pixel, some of whose samples are fifty times as bright.
 
-    Against the mean of all others: a firefly is taken for noise, not for light.
+    The truth is the mean of all other samples: a firefly is taken for noise, not for light.
     """
     pixels = lab.count(4096, 256)
     errors = {

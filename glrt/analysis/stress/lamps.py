@@ -118,13 +118,13 @@ def _flux(scene: Scene) -> float:
 
 
 def _corner(a: Array, b: Array) -> Array:
-    """Form factor of a parallel rectangle a x b at distance 1, one corner of which is above."""
+    """Form factor of a parallel rectangle a x b at distance 1, with one corner straight above."""
     p, q = np.sqrt(1 + a * a), np.sqrt(1 + b * b)
     factor: Array = (a / p * np.arctan(b / p) + b / q * np.arctan(a / q)) / (2 * np.pi)
     return factor
 
 
-RIM = 0.1  # edge of the square of ceiling in view, beside the lamp
+RIM = 0.1  # edge of the square of ceiling in view, next to the lamp
 
 
 def ceiling(lab: Lab) -> Sweep:
@@ -192,7 +192,7 @@ def _rim_light(gap: float) -> float:
 
 
 def _facing_lamp(x: Array, z: Array, size: float) -> Array:
-    """Form factor of a square lamp whose edge is `x` beside the point; lengths in gaps."""
+    """Form factor of a square lamp whose edge is at a distance `x` aside; lengths in gaps."""
     low, high = size / 2 - z, size / 2 + z
     far = _corner(x + size, low) + _corner(x + size, high)
     near: Array = far - _corner(x, low) - _corner(x, high)

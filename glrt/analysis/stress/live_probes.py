@@ -18,7 +18,7 @@ SAMPLES = 256
 
 UPDATES = (1, 3, 10, 23, 50, 100)  # after the step
 DIM = 0.25
-DARK, BRIGHT = 0.005, 0.8  # albedos: one bounce is all but all of the light; many are
+DARK, BRIGHT = 0.005, 0.8  # albedos: nearly all light has one bounce, or many
 LATE = 1.02  # times the share that is to be left
 
 SIZES = (1e-4, 1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0, 1e3, 1e4)
@@ -42,7 +42,7 @@ def step(lab: Lab) -> Sweep:
 
 
 def scale(lab: Lab) -> Sweep:
-    """How wrong the light of a room is that is larger or smaller, beside one of 2 x 2 x 2."""
+    """Error of the light of a larger or smaller room, against a room of 2 x 2 x 2."""
     samples = lab.count(SAMPLES)
 
     def light(size: float, probes: float) -> float:
@@ -62,7 +62,7 @@ def scale(lab: Lab) -> Sweep:
 
 
 def _left(lab: Lab, albedo: float, hysteresis: float) -> list[float]:
-    """The share of what is to go, in a closed room that shines with 1 and then with DIM."""
+    """The share of a dimming to DIM that live probes still miss, in a closed room that emits."""
     scene = scene_of([sphere([0, 0, 0], 1, "wall")], {"wall": lamp(1.0, albedo)})
     ways = {**SETTINGS, "probes": 2, "bounces": 3, "roulette": False}
     settings = settings_for(scene.render, **ways)
@@ -75,7 +75,7 @@ def _left(lab: Lab, albedo: float, hysteresis: float) -> list[float]:
 
 
 def _with_light(means: list[float]) -> list[tuple[float, float]]:
-    """Each frame with what its room shines with: 1 in the first alone."""
+    """The mean of each frame, and the emission of its room: 1 in the first frame, then DIM."""
     return [(mean, DIM if number else 1.0) for number, mean in enumerate(means)]
 
 

@@ -19,8 +19,8 @@ from glrt.settings import settings_for
 
 SPEEDS = (0.1, 0.3, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0)  # pixels a frame, of what is in the middle
 FRAMES, SIDE, TRUE = 8, 40, 4096
-PLACES = 4  # moves of which the squared errors are averaged
-SAMPLES = 16  # of a frame
+PLACES = 4  # camera moves whose squared errors are averaged
+SAMPLES = 16  # samples per pixel of a frame
 MODES = ("reproject", "taa", "ataa", "wrls", "wrls delayed", "reset")
 CHOSEN, NAIVE = "reproject", "history that stays in its pixels"
 WORSE = 1.1  # times the error of `reset`, at most
@@ -47,9 +47,9 @@ def speed(lab: Lab) -> Sweep:
 
 
 def reflection(lab: Lab) -> Sweep:
-    """The same of what a mirror shows, which moves otherwise than its surface.
+    """Error of what a mirror shows, by speed: a reflection does not move with its surface.
 
-    A wall that is a mirror, over a floor; the balls stand beside the camera.
+    The scene is a wall that is a mirror, over a floor; the balls are next to the camera.
     """
     scene = scene_of(
         [
@@ -72,7 +72,7 @@ def reflection(lab: Lab) -> Sweep:
 
 
 def _sideways(lab: Lab, scene: Scene) -> Sweep:
-    """Of a camera 3.5 units before the plane through 0."""
+    """Errors by the speed of a camera that is 3.5 units before the plane through 0."""
     tall = 2 * 3.5 * float(np.tan(np.radians(20)))  # what the picture shows of that plane
     errors: dict[str, list[float]] = {name: [] for name in (NAIVE, *MODES)}
     for pixels in SPEEDS:
@@ -99,7 +99,7 @@ BEFORE = 8  # frames of a sample before the edge moves
 
 
 def step(lab: Lab) -> Sweep:
-    """Error of what is on the screen two frames after all light changed, by how much it did."""
+    """Error of the screen two frames after all light changed, by the factor of the change."""
     return Sweep(
         parameter="factor of all light",
         measure=f"relative RMS error {AFTER} frames of one sample later",
@@ -110,7 +110,7 @@ def step(lab: Lab) -> Sweep:
 
 
 def flicker(lab: Lab) -> Sweep:
-    """Error of what is on the screen while all light changes with each frame, to and fro."""
+    """Error of the screen while all light changes with each frame, to and fro, by its factor."""
     return Sweep(
         parameter="factor of all light in every other frame",
         measure=f"relative RMS error after {STILL} frames of one sample",
@@ -123,8 +123,8 @@ def flicker(lab: Lab) -> Sweep:
 def _lit(lab: Lab, factors: tuple[float, ...], lights: Callable[[float], Lights]) -> dict[str, Any]:
     """Curves of the error of the last frame; `lights` has the factor of all light of each frame.
 
-    A matte ball on a floor, a still camera. Other light is as bright everywhere: so one reference
-    serves all factors.
+    The scene is a matte ball on a floor, with a still camera. A factor scales all of the light, so
+    one reference serves all factors.
     """
     scene = scene_of(
         [
@@ -153,7 +153,7 @@ def _lit(lab: Lab, factors: tuple[float, ...], lights: Callable[[float], Lights]
 def uncovered(lab: Lab) -> Sweep:
     """Error of what the edge of a near wall has just uncovered, by the width of that band.
 
-    The camera looks past the edge of a wall at distance 1 to a wall at distance 3, and goes
+    The camera looks past the edge of a wall at distance 1 to a wall at distance 3, and moves
     sideways: d units uncover 2 d units of the far wall.
     """
     scene = scene_of(
@@ -191,7 +191,7 @@ def _add_errors(
     samples: int,
     columns: slice = slice(None),
 ) -> None:
-    """Of the last frame by each mode, and of the mean of all frames, pixel by pixel."""
+    """Append the errors of the last frame by each mode, and of the pixelwise mean of all frames."""
     squares: dict[str, list[float]] = {name: [] for name in errors}
     for place in range(lab.count(PLACES, 1)):
         shown = {mode: _shown(lab, moves, WAYS[mode], 100 * place, samples) for mode in MODES}

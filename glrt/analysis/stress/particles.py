@@ -34,7 +34,7 @@ def focused(lab: Lab) -> Sweep:
 
 
 def mirrored(lab: Lab) -> Sweep:
-    """The same where a mirror ball shows it; what particles are not linked through, they lack."""
+    """Error of a caustic in a mirror ball, by the radius of the lamp; it needs linked particles."""
     ways = {"mis, particles linked": LINKED, **WAYS}
     scenes = {radius: in_a_mirror(radius) for radius in RADII}
     return _errors(lab, RADIUS_OF_LAMP, scenes, ways, least=SAMPLES)
@@ -58,7 +58,7 @@ def refracted(lab: Lab) -> Sweep:
 def many(lab: Lab) -> Sweep:
     """The error under one ball of glass among many, which share the particles.
 
-    They are aimed at 31 of the balls.
+    Particles are aimed at 31 of the balls.
     """
     counts = (1.0, 4.0, 16.0, 64.0)
     scenes = {count: under_a_ball(SMALL, balls=int(count)) for count in counts}
@@ -70,7 +70,7 @@ def many(lab: Lab) -> Sweep:
 
 
 def aperture(lab: Lab) -> Sweep:
-    """The error of a caustic in focus, by the angle of the lens, seen from there."""
+    """The error of a caustic in focus, by the angle of the lens as seen from the caustic."""
     values = (0.1, 1.0, 5.0, 20.0)
     scenes = {x: under_a_ball(SMALL, defocus_angle=x, focus_distance=3.8) for x in values}
     return _errors(lab, "angle of the lens at the caustic, in degrees", scenes)
@@ -96,7 +96,7 @@ def _errors(
     least: int = 32,
     most: float = MOST,
 ) -> Sweep:
-    """For scenes by that parameter; the first of the ways, which renders the truth, keeps a bound.
+    """Errors of scenes by `parameter`; the first way also renders the truth, and has the bound.
 
     `least`: samples of a quick run.
     """
@@ -129,7 +129,7 @@ def under_a_ball(
 ) -> Scene:
     """A floor under a ball of glass and a lamp; the camera sees the floor alone.
 
-    `balls`: how many there are, all but one beside the view, in rows behind it.
+    `balls` is the number of balls; all but one are outside the view, in rows behind it.
     """
     rest = [sphere([i % 8 - 4, 0.8, -2 - i // 8], 0.3, "glass") for i in range(balls - 1)]
     materials = _materials(radius) | ({"glass": material} if material else {})
@@ -137,7 +137,7 @@ def under_a_ball(
 
 
 def in_a_mirror(radius: float) -> Scene:
-    """The same beside a mirror ball; the camera sees the caustic in it alone."""
+    """The floor of `under_a_ball` with a mirror ball; the camera sees the caustic in that alone."""
     ball = sphere([-1.6, 0.6, 0.4], 0.6, "mirror")
     camera = {"position": [0.4, 1.2, 3.5], "look_at": [-1.07, 0.45, 0.62], "fov": 3}
     return scene_of([FLOOR, BALL, ball, _lamp(radius)], _materials(radius), camera)

@@ -28,7 +28,7 @@ vec2 drawn(precise inout Sampler rng) {
 def dimensions(lab: Lab) -> Sweep:
     """Error of means of 64 samples of the product of u + 1/2 over some numbers u, whose mean is 1.
 
-    Over the error with independent samples, sqrt(((13 / 12)^n - 1) / 64) for n numbers.
+    Errors are relative to those of independent samples, sqrt(((13 / 12)^n - 1) / 64) for n numbers.
     """
     x = [1, 2, 4, 8, 16, 32]
     rows = np.arange(lab.count(1 << 13, 1 << 12))

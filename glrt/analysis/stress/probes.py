@@ -14,7 +14,7 @@ SAMPLES = 64
 TRUE = 4096  # samples of each of two truths
 CELL = 2 / 3  # edge of a cell of the rooms side by side
 HALF = CELL / 2
-WIDE = 0.4  # of the single room
+WIDE = 0.4  # edge of a cell of the single room
 THICKNESSES = (0.01, 0.1, 0.25, 0.5)  # of a wall, in cells
 TIGHT = 0.25  # thickness from which on a wall holds
 MOST_LEAKED = 0.002
@@ -31,11 +31,11 @@ DIRECT = "direct light alone"
 
 ALBEDOS = (0.5, 0.8, 0.9, 0.95, 0.98, 0.99)
 WHITEST, MOST_LACKING = 0.95, 0.012
-PLAIN_UPDATES = 32  # that one set of probes takes
+PLAIN_UPDATES = 32  # number of updates of one set of probes
 
 
 def leak(lab: Lab) -> Sweep:
-    """Light of a sealed dark room over that of the floor of the lit one beside it."""
+    """Light of a sealed dark room over that of the floor of the lit room next to it."""
     leaks = _leaks(lab, [house(thickness * CELL, 1) for thickness in THICKNESSES])
     return Sweep(
         parameter="thickness of the wall, in cells",
@@ -50,7 +50,7 @@ def leak(lab: Lab) -> Sweep:
 
 
 def in_wall(lab: Lab) -> Sweep:
-    """The same where probes stand near a wall, or in it."""
+    """Light that leaks through a wall, with probes near the wall or in it."""
     scenes = [house(TIGHT * CELL, 1, shift * CELL) for shift in SHIFTS]
     leaks = _leaks(lab, scenes)
     return Sweep(
@@ -99,7 +99,7 @@ def polish(lab: Lab) -> Sweep:
 
 
 def bulb(lab: Lab) -> Sweep:
-    """How wrong the light of a room is, by the size of its lamp, whose flux stays."""
+    """Error of the light of a room, by the size of its lamp, whose flux is constant."""
     wrong: dict[str, list[float]] = {name: [] for name in ("ddgi", DIRECT)}
     eye = {"position": [0, 0, 0.9], "look_at": [0, -1, 0], "fov": 50}
     for radius in RADII:
@@ -120,7 +120,7 @@ def bulb(lab: Lab) -> Sweep:
 
 
 def white(lab: Lab) -> Sweep:
-    """What a closed room lacks of its light, 1 / (1 - a), by its albedo a."""
+    """The share that a closed room lacks of its light, 1 / (1 - a), by its albedo a."""
     lacking = []
     for albedo in ALBEDOS:
         room = scene_of([sphere([0, 0, 0], 1, "wall")], {"wall": lamp(1.0, albedo)})
@@ -165,7 +165,7 @@ def room(thing: Table, eye: Table, steel: Table | None = None, light: Table = LA
 
 
 def _shell(wide: float) -> list[Table]:
-    """Walls, 2 high and deep."""
+    """Walls of a closed room from -`wide` to `wide`, 2 high and 2 deep."""
     return [
         *(quad([-wide, y, -1], [2 * wide, 0, 0], [0, 0, 2], "m") for y in (-1, 1)),
         *(quad([-wide, -1, z], [2 * wide, 0, 0], [0, 2, 0], "m") for z in (-1, 1)),
@@ -174,7 +174,7 @@ def _shell(wide: float) -> list[Table]:
 
 
 def _leaks(lab: Lab, scenes: list[Scene]) -> dict[str, list[float]]:
-    """Light of dark rooms over that of the lit one beside them."""
+    """Light of dark rooms over that of the lit rooms next to them."""
     samples = lab.count(SAMPLES)
     lit = _light(lab, house(CELL, -1), samples)
     return {
@@ -185,7 +185,7 @@ def _leaks(lab: Lab, scenes: list[Scene]) -> dict[str, list[float]]:
 
 
 def _add_errors(lab: Lab, scene: Scene, errors: dict[str, list[float]]) -> None:
-    """Of each method, relative RMS: what two pictures have in common, which is no noise."""
+    """Append relative RMS errors by method: the part that two pictures share, which is no noise."""
     first, second = _pair(lab, scene, TRUE, 2, "mis")
     scale = np.square((first + second) / 2).mean()
     for method, found in errors.items():
@@ -195,7 +195,7 @@ def _add_errors(lab: Lab, scene: Scene, errors: dict[str, list[float]]) -> None:
 
 
 def _pair(lab: Lab, scene: Scene, samples: int, seed: int, method: str) -> list[Array]:
-    """Two pictures, by this seed and the next."""
+    """Two pictures, with this seed and the next."""
     found = []
     with lab.rendering(scene, **{**SETTINGS, "method": method, "bounces": 32}) as renderer:
         for each in (seed, seed + 1):

@@ -6,7 +6,7 @@ from glrt.analysis.stress.scenes import lamp, matte, quad, scene_of
 from glrt.analysis.stress.sweep import Lab, Sweep, mean_of
 from glrt.scene.scene import Scene
 
-HEIGHTS = (0.01, 0.03, 0.1, 0.3, 0.9)  # of slats
+HEIGHTS = (0.01, 0.03, 0.1, 0.3, 0.9)  # heights of slats
 APART = 0.1
 SAMPLES = 512
 MOST_WRONG = 0.02
@@ -20,7 +20,7 @@ WAYS: dict[str, dict[str, Any]] = {  # without probes' light: `mis` has the trut
 
 
 def slats(lab: Lab) -> Sweep:
-    """How wrong the light of a floor is between slats, by their height."""
+    """Error of the light of a floor between slats, by their height."""
     wrong: dict[str, list[float]] = {way: [] for way in WAYS}
     for height in HEIGHTS:
         scene = floor(height)
@@ -40,7 +40,7 @@ def slats(lab: Lab) -> Sweep:
 
 
 def floor(height: float) -> Scene:
-    """Seen from near, in a room with a lamp under its ceiling."""
+    """A floor with slats of this height, in a room with a lamp under its ceiling."""
     walls = [
         *(quad([-1, y, -1], [2, 0, 0], [0, 0, 2], "m") for y in (-1, 1)),
         *(quad([-1, -1, z], [2, 0, 0], [0, 2, 0], "m") for z in (-1, 1)),

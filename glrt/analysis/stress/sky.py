@@ -16,7 +16,7 @@ WALL = 0.5  # albedo of the floor
 
 
 def sun(lab: Lab) -> Sweep:
-    """Noise of a floor under an even sky with a sun of one pixel, by the radiance of that."""
+    """Noise of a floor under an even sky with a sun of one pixel, by the radiance of the sun."""
     x = [1.0, 10.0, 100.0, 1e3, 1e4, 1e5, 1e6]
     samples, side = lab.count(1024, 64), 16
     noise: dict[str, list[float]] = {"mis": [], "nee": [], "naive": []}
@@ -62,7 +62,7 @@ def _floor(radiance: float) -> Scene:
 def floor_light(pixels: Pixels) -> float:
     """Radiance of the floor: the image, bilinear between pixels, times the cosine, by midpoints.
 
-    An even sky is 1, and a pixel adds its hat over the pixels beside it.
+    An even sky has radiance 1, and a pixel adds its hat over the neighbouring pixels.
     """
     fine = 64
     steps = (np.arange(2 * fine) + 0.5) / fine - 1  # over the two pixels that a hat spans

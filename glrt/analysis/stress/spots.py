@@ -93,7 +93,7 @@ _ROUNDED = 1e-5
 
 
 def _ring(count: int) -> Scene:
-    """A spot above the origin, and count - 1 beside it that are aimed outwards."""
+    """A spot above the origin, and count - 1 spots around it that are aimed outwards."""
     balls = [sphere([0, _HEIGHT, 0], _RADIUS, "here")]
     materials: dict[str, Table] = {
         "here": _spot(Cone(axis=(0, -1, 0), inner=10, outer=20)),

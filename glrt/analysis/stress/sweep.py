@@ -62,7 +62,7 @@ class Sweep:
 
 @dataclass(frozen=True)
 class Lab:
-    """What cases run with: an open context, and the amount of work."""
+    """The environment of cases: an open context, and the amount of work."""
 
     context: Context
     scale: float = 1.0  # factor on the numbers of samples and rows

@@ -1,6 +1,6 @@
-"""Adaptive temporal antialiasing: other means where an exponential mean over views fails.
+"""Adaptive temporal antialiasing: repair pixels where an exponential mean over views fails.
 
-Marrs et al., "Adaptive Temporal Antialiasing" (2018): a mask of failures, FXAA where what is seen
+Marrs et al., "Adaptive Temporal Antialiasing" (2018): a mask of failures, FXAA where the surface
 was outside the view before, and more samples elsewhere.
 """
 
@@ -14,17 +14,17 @@ from glrt.rendering.history.more_samples import MoreSamples
 from glrt.rendering.history.reprojection import Reprojection, between
 from glrt.rendering.history.taa import PUBLISHED, UNLIMITED
 
-SAMPLES = 8  # more, of a pixel where the mean fails
-CHOICES = range(2, 17)  # of it: as in the paper
+SAMPLES = 8  # additional samples of a pixel where the mean fails
+CHOICES = range(2, 17)  # allowed SAMPLES: as in the paper
 
 
 class Ataa:
-    """Temporal antialiasing, and what its mask says. Pixels are traced once for each view."""
+    """Temporal antialiasing with a mask of failures; masked pixels are traced once a view."""
 
     def __init__(self, gl: moderngl.Context, samples: int = SAMPLES) -> None:
         """Nothing is compiled or allocated before it is needed."""
         self.samples = samples
-        self.traced = 0  # pixels of this view
+        self.traced = 0  # number of pixels in this view
         self._reprojection = Reprojection(gl, UNLIMITED)
         self._plain, self._find = DrawnPass(gl, "taa.frag"), DrawnPass(gl, "ataa_mask.frag")
         self._compose, self._more = DrawnPass(gl, "ataa.frag"), MoreSamples(gl)
@@ -37,16 +37,16 @@ class Ataa:
 
     @property
     def more(self) -> int:
-        """Samples of this view beside the film."""
+        """Samples of this view in addition to the film, over all pixels."""
         return self.traced * self.samples
 
     @property
     def mask(self) -> moderngl.Texture | None:
-        """Of this view, a: 0 the mean over views, 1 FXAA, 2 more samples, 3 those alone."""
+        """Texture of this view, a: 0 the mean over views, 1 FXAA, 2 more samples, 3 those alone."""
         return self._mask.texture if self._is_masked else None
 
     def arrive(self, now: Surfaces, before: Surfaces | None, is_same_light: bool) -> None:
-        """Bring what was shown, whatever the light: limits and mask keep it near the film."""
+        """Reproject the last picture, under any light: clamping and mask keep it near the film."""
         del is_same_light
         self._brought, self._before, self._extra = None, before, None
         self._is_masked, self.traced = False, 0
@@ -55,7 +55,7 @@ class Ataa:
         self._history = self._brought
 
     def show(self, now: Surfaces, fresh: Fresh) -> moderngl.Texture:
-        """Radiance, and the samples that it stands for."""
+        """The picture: radiance in RGB, in a the number of samples that it stands for."""
         size, film = fresh.mean.size, {"light": fresh.light, "mean": fresh.mean}
         brought = self._brought if fresh.samples < fresh.end else None
         values = {"has_history": brought is not None, **PUBLISHED._asdict()}
@@ -77,7 +77,7 @@ class Ataa:
         return self._history
 
     def release(self) -> None:
-        """Free what the driver holds."""
+        """Release all OpenGL resources."""
         for one in (self._reprojection, self._plain, self._find, self._compose, self._more):
             one.release()
         for canvas in (self._means, self._mask, self._canvas):
@@ -87,7 +87,7 @@ class Ataa:
     def _look(
         self, now: Surfaces, before: Surfaces, fresh: Fresh, brought: moderngl.Texture
     ) -> None:
-        """Find where the mean fails, by the first samples of the view, and trace there."""
+        """Find where the mean fails, from the first samples of the view, and trace those pixels."""
         textures, values = between(now, before)
         own = {**textures, "light": fresh.light, "brought": brought}
         self._find.draw(self._mask.sized(now.size), own, values)

@@ -9,11 +9,11 @@ from glrt.gpu.glsl import Source
 from glrt.gpu.program import drawing
 
 _VERSION = "410 core"
-Textures = Mapping[str, moderngl.Texture | Sequence[moderngl.Texture]]  # of samplers, and arrays
+Textures = Mapping[str, moderngl.Texture | Sequence[moderngl.Texture]]  # by sampler, or samplers
 
 
 class DrawnPass:
-    """A fragment shader over all pixels of a texture: for resolvers."""
+    """A fragment shader that draws over all pixels of a framebuffer."""
 
     def __init__(self, gl: moderngl.Context, shader: str) -> None:
         """Nothing is compiled before it is needed; `shader` is an entry file."""
@@ -26,7 +26,7 @@ class DrawnPass:
         textures: Textures,
         values: Mapping[str, Any],
     ) -> None:
-        """Draw over a framebuffer. Uniforms that the compiler dropped need no value."""
+        """Draw over `target`; values for uniforms that the compiler dropped are ignored."""
         program = self._program or self._compile()
         unit = 0
         for name, given in textures.items():
@@ -45,7 +45,7 @@ class DrawnPass:
             self._quad.render(moderngl.TRIANGLE_STRIP, vertices=4)
 
     def release(self) -> None:
-        """Free what the driver holds."""
+        """Release all OpenGL resources."""
         if self._program:
             self._quad.release()
             self._program.release()

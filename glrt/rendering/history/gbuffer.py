@@ -1,7 +1,7 @@
-"""The first surface behind the middle of each pixel (a G-buffer), by which samples are found again.
+"""The G-buffer: the first surface behind the middle of each pixel, to find samples again.
 
-`shaders_glsl/integrators/middle_surface.glsl` says what its texels hold: they need no sample, and
-are the same in every frame of a view.
+`shaders_glsl/integrators/middle_surface.glsl` defines its texels. They need no sample, and are the
+same in every frame of a view.
 """
 
 from collections.abc import Mapping
@@ -24,16 +24,16 @@ from glrt.settings import Settings
 
 
 class Surfaces:
-    """Two RGBA32F textures of a view, row 0 on top, and the scene and settings that they are of.
+    """The G-buffer of a view: two RGBA32F textures, row 0 on top, with its scene and settings.
 
     `position`: relative to the eye in scene units, and 1 + the number of the object; where nothing
-    is met a unit direction and 0. `normal`: unit, towards the eye, and flags as bits.
+    is met, a unit direction and 0. `normal`: unit, towards the eye, and flags as bits.
     """
 
-    samples = next_sample = 0  # as a kernel asks of what it fills
+    samples = next_sample = 0  # required of whatever a kernel fills
 
     def __init__(self, gl: moderngl.Context) -> None:
-        """Empty: of no view."""
+        """Begin empty, without a view."""
         self._gl = gl
         self._textures: dict[str, moderngl.Texture] = {}
         self._size_of: moderngl.Texture | None = None
@@ -43,18 +43,18 @@ class Surfaces:
 
     @property
     def position(self) -> moderngl.Texture:
-        """Where the surfaces are, and of which objects."""
+        """Positions of the surfaces relative to the eye, and 1 + the numbers of their objects."""
         return self._textures["position"]
 
     @property
     def normal(self) -> moderngl.Texture:
-        """How they face, and flags."""
+        """Normals of the surfaces towards the eye, and flags with edges marked."""
         assert self.marked.texture
         return self.marked.texture
 
     @property
     def unmarked(self) -> dict[str, moderngl.Texture]:
-        """The same before edges are marked, by the names of edges.frag."""
+        """Both textures before edges are marked, by the sampler names of edges.frag."""
         return self._textures
 
     @property
@@ -63,7 +63,7 @@ class Surfaces:
         return self.position.size if self._textures else (0, 0)
 
     def begin(self, renderer: Renderer) -> None:
-        """Take the size of a renderer's picture; RenderError if the driver has no room for that."""
+        """Adopt a renderer's scene, settings and size; RenderError if the driver has no room."""
         self._size_of = renderer.film.mean
         self.scene, self.settings = renderer.scene, renderer.settings
         if self.size == renderer.size:
@@ -79,13 +79,13 @@ class Surfaces:
             raise
 
     def images(self) -> Mapping[str, moderngl.Texture]:
-        """The textures under the names of the kernel's images."""
+        """The textures by the names of the kernel's image uniforms."""
         assert self._size_of
         targets = {f"target_{name}": texture for name, texture in self._textures.items()}
         return {"source_mean": self._size_of, **targets}
 
     def release(self) -> None:
-        """Free the textures: of no view again."""
+        """Release the textures; the G-buffer is empty again."""
         self._free()
         self.scene = self.settings = self._size_of = None
 
@@ -97,7 +97,7 @@ class Surfaces:
 
 
 class SurfacePass:
-    """Fills surfaces by the scene of a renderer; a camera ray for each pixel."""
+    """Fills a G-buffer from the scene of a renderer, with one camera ray per pixel."""
 
     def __init__(self, gl: moderngl.Context) -> None:
         """Nothing is compiled before it is needed."""
@@ -106,7 +106,7 @@ class SurfacePass:
     def fill(self, renderer: Renderer, surfaces: Surfaces) -> None:
         """Find the surfaces of the view that a renderer shows.
 
-        RenderError if the driver refuses the kernel or has no room.
+        Raises RenderError if the driver refuses the kernel or has no room.
         """
         scene, tiles = renderer.device_scene, tile_count(*renderer.size)
 
@@ -122,5 +122,5 @@ class SurfacePass:
             self._edges.draw(target, surfaces.unmarked, {})
 
     def release(self) -> None:
-        """Free what the driver holds."""
+        """Release all OpenGL resources."""
         self._edges.release()

@@ -1,6 +1,6 @@
-"""More samples of some pixels of a view: beside its film, which does not change.
+"""Trace more samples of some pixels of a view, without a change of its film.
 
-The pixels are gathered into a list, so that those of a work group are all traced.
+The pixels are gathered into a list, so that every lane of a work group has one to trace.
 """
 
 from dataclasses import replace
@@ -18,14 +18,14 @@ from glrt.rendering.schedule import DispatchRange
 from glrt.settings import settings_for
 
 GROUP = 64  # pixels of a work group
-GROUPS = 256  # of a dispatch
-OTHER_SEED = 0x5BD1E995  # apart from that of the film: its noise is not that of these samples
+GROUPS = 256  # work groups of a dispatch
+OTHER_SEED = 0x5BD1E995  # changes the film's seed, so that these samples have noise of their own
 
 
 class MoreSamples:
-    """Traces the pixels of a mask (shaders_glsl/gather.comp)."""
+    """Traces more samples of the pixels of a mask (shaders_glsl/gather.comp)."""
 
-    samples = next_sample = 0  # as a kernel asks of what it fills
+    samples = next_sample = 0  # required of whatever a kernel fills
 
     def __init__(self, gl: moderngl.Context) -> None:
         """Nothing is compiled or allocated before it is needed."""
@@ -34,14 +34,14 @@ class MoreSamples:
         self._gather: Kernel | None = None
 
     def images(self) -> Images:
-        """The textures under the names of the kernel's images."""
+        """The textures by the names of the kernel's image uniforms."""
         assert self._canvas.texture
         return {"target_more": self._canvas.texture}
 
     def trace(
         self, renderer: Renderer, mask: moderngl.Texture, samples: int
     ) -> tuple[moderngl.Texture, int]:
-        """Radiance, a: samples, valid at the pixels of the mask; and how many those are."""
+        """Texture of radiance, a: samples, valid at the mask's pixels; and the number of those."""
         scene, size = renderer.device_scene, mask.size
         seed = renderer.settings.seed ^ OTHER_SEED
         settings = settings_for(renderer.settings, seed=seed)
@@ -64,14 +64,14 @@ class MoreSamples:
                 for first in range(0, groups, GROUPS):
                     dispatch(kernel, DispatchRange(samples, first, min(GROUPS, groups - first)))
                     renderer.context.finish()
-            scene.lost_any()  # the film has lost none of these
+            scene.lost_any()  # clears the count: losses here are not the film's
         finally:
             pixels.release()
         assert self._canvas.texture
         return self._canvas.texture, count
 
     def release(self) -> None:
-        """Free what the driver holds."""
+        """Release all OpenGL resources."""
         if self._gather:
             self._gather.release()
         self._gather = None

@@ -1,7 +1,7 @@
-"""What was shown of one view, brought to another: the history follows the surfaces.
+"""Reproject what was shown of one view to another: history follows the surfaces.
 
-A place of the other view is taken over if it holds the same object, as far from the eye within 2 %
-and facing within 25 degrees (shaders_glsl/passes/reprojection.glsl).
+History is taken over from a pixel with the same object, as far from the eye within 2 %, and facing
+the same way within 25 degrees (shaders_glsl/passes/reprojection.glsl).
 """
 
 from typing import Any, NamedTuple
@@ -17,23 +17,23 @@ from glrt.scene.scene import Scene
 
 
 class Limits(NamedTuple):
-    """Samples of a pixel that history may stand for, at most: where it is old it is wrong."""
+    """The most samples of a pixel that history may stand for: old history may be wrong."""
 
     most: float = 64.0
     most_specular: float = 8.0  # in mirrors and glass, and out of focus
-    most_at_edges: float = 2.0  # where samples may meet another surface, too
+    most_at_edges: float = 2.0  # where samples may also meet another surface
 
 
 USUAL = Limits()
 
 
 def shares_objects(one: Scene, other: Scene) -> bool:
-    """Whether the numbers of objects mean the same in both scenes."""
+    """Whether object numbers mean the same in both scenes: equal shapes in equal order."""
     return [shape.shape for shape in one.visible] == [shape.shape for shape in other.visible]
 
 
 def between(now: Surfaces, before: Surfaces) -> tuple[dict[str, moderngl.Texture], dict[str, Any]]:
-    """Textures and uniforms of passes/reprojection.glsl; both hold a view."""
+    """Textures and uniforms for passes/reprojection.glsl; both G-buffers must hold a view."""
     assert now.scene
     assert before.scene
     assert before.settings
@@ -56,7 +56,7 @@ def between(now: Surfaces, before: Surfaces) -> tuple[dict[str, moderngl.Texture
 
 
 class Reprojection:
-    """Brings history from one view to another: radiance, and the samples that it stands for."""
+    """Reprojects history from one view to another: radiance, and its number of samples."""
 
     def __init__(self, gl: moderngl.Context, limits: Limits = USUAL) -> None:
         """Nothing is compiled or allocated before it is needed."""
@@ -71,9 +71,9 @@ class Reprojection:
         history: moderngl.Texture,
         limits: Limits | None = None,
     ) -> moderngl.Texture:
-        """RGBA32F of the size of `now`, a: samples, 0 where the surface was not seen before.
+        """Reproject history to the view `now`: RGBA32F, a: samples, 0 where the surface is new.
 
-        It stays valid through the next call, whose history it may be.
+        The texture stays valid through the next call, which may take it as history.
         """
         self._canvases.reverse()
         target = self._canvases[0].sized(now.size)
@@ -88,7 +88,7 @@ class Reprojection:
         return self._canvases[0].texture
 
     def release(self) -> None:
-        """Free what the driver holds."""
+        """Release all OpenGL resources."""
         self._pass.release()
         for canvas in self._canvases:
             canvas.release()

@@ -1,7 +1,7 @@
-"""Temporal antialiasing: an exponential mean of what was shown, where the surface was seen before.
+"""Temporal antialiasing: an exponential mean over views, where the surface was seen before.
 
-Yang, Liu, Salvi, "A Survey of Temporal Antialiasing Techniques" (2020). Samples have places of
-their own in their pixels: the film needs no other jitter, and keeps its bits.
+Yang, Liu, Salvi, "A Survey of Temporal Antialiasing Techniques" (2020). Samples already lie at
+random places in their pixels, so the film needs no other jitter and keeps its bits.
 """
 
 from typing import NamedTuple
@@ -14,22 +14,22 @@ from glrt.rendering.history.gbuffer import Surfaces
 from glrt.rendering.history.history_filter import Fresh
 from glrt.rendering.history.reprojection import Limits, Reprojection
 
-ANY = -1.0  # history is not kept within limits
-UNLIMITED = Limits(1e6, 1e6, 1e6)  # the least share of a sample limits it
+ANY = -1.0  # history is not clamped
+UNLIMITED = Limits(1e6, 1e6, 1e6)  # instead, the least share of a new sample limits history
 
 
 class TaaOptions(NamedTuple):
-    """As the survey has them."""
+    """Options of the exponential mean; the defaults are those of the survey."""
 
-    least: float = 0.1  # share of a new sample; more of the first: 1 / n of the n-th
-    reach: float = 1.0  # deviations of the neighbourhood about its mean that history is kept in
+    least: float = 0.1  # share of a new sample, at least; the n-th sample has 1 / n if that is more
+    reach: float = 1.0  # history is kept within so many deviations of the neighbourhood's mean
 
 
 PUBLISHED = TaaOptions()
 
 
 class Taa:
-    """The film, and what was shown of the view before: each sample is a frame."""
+    """The film blended with the previous view; each sample counts as a frame."""
 
     def __init__(self, gl: moderngl.Context, options: TaaOptions = PUBLISHED) -> None:
         """Nothing is compiled or allocated before it is needed."""
@@ -41,7 +41,7 @@ class Taa:
         self._brought: moderngl.Texture | None = None
 
     def arrive(self, now: Surfaces, before: Surfaces | None, is_same_light: bool) -> None:
-        """Bring what was shown, whatever the light: limits keep it near the film."""
+        """Reproject the last picture, under any light: clamping keeps it near the film."""
         del is_same_light
         self._brought = None
         if before and self._history:
@@ -49,7 +49,7 @@ class Taa:
         self._history = self._brought
 
     def show(self, now: Surfaces, fresh: Fresh) -> moderngl.Texture:
-        """Radiance, and the samples that it stands for."""
+        """The picture: radiance in RGB, in a the number of samples that it stands for."""
         del now
         brought = self._brought if fresh.samples < fresh.end else None
         textures = {"light": fresh.light, "mean": fresh.mean, "brought": brought or fresh.mean}
@@ -60,6 +60,6 @@ class Taa:
         return self._history
 
     def release(self) -> None:
-        """Free what the driver holds."""
+        """Release all OpenGL resources."""
         for part in (self._reprojection, self._pass, self._canvas):
             part.release()

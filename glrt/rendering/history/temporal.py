@@ -1,8 +1,8 @@
-"""What the screen shows while the camera moves: a film that begins anew, and history beside it.
+"""The screen while the camera moves: a film that begins again at each view, and history.
 
-`Temporal` follows a renderer from view to view and holds what all modes share: the surfaces of this
-view and of the one before. A mode is a `Resolver`: it makes the picture, and what the next view
-begins from. None of them ever writes to the film.
+`Temporal` follows a renderer from view to view and holds what all modes share: the G-buffers of
+this view and of the previous one. A mode is a `Resolver`: it makes the picture, and the history
+from which the next view begins. No mode ever writes to the film.
 
     temporal.leave(renderer, weights)   # before an edit: what is shown becomes history
     renderer.update(...)                # the film is empty
@@ -31,7 +31,7 @@ from glrt.rendering.screen.false_colors import Number, Told
 
 Mode = Literal["reset", "reproject", "taa", "ataa", "wrls"]
 
-END = 64.0  # samples of a film from which on history is not shown, at the latest
+END = 64.0  # samples of a film from which on no history is shown
 
 
 class Reproject:
@@ -46,7 +46,7 @@ class Reproject:
         self._brought: moderngl.Texture | None = None
 
     def arrive(self, now: Surfaces, before: Surfaces | None, is_same_light: bool) -> None:
-        """Bring what was shown."""
+        """Reproject the last picture to the new view."""
         self._brought = None
         if before and self._history:
             limits = None if is_same_light else OTHER_LIGHT
@@ -54,7 +54,7 @@ class Reproject:
         self._history = self._brought
 
     def show(self, now: Surfaces, fresh: Fresh) -> moderngl.Texture:
-        """Radiance, and the samples that it stands for."""
+        """The picture: radiance in RGB, in a the number of samples that it stands for."""
         del now
         if not self._brought:
             self._history = None
@@ -76,24 +76,24 @@ class Reproject:
         return self._history
 
     def release(self) -> None:
-        """Free what the driver holds."""
+        """Release all OpenGL resources."""
         for part in (self._reprojection, self._evidence, self._fade, self._tiles, self._canvas):
             part.release()
 
 
-OTHER_LIGHT = Limits(2.0, 2.0, 2.0)  # what was shown is wrong by an unknown amount
+OTHER_LIGHT = Limits(2.0, 2.0, 2.0)  # under changed light, history is wrong by an unknown amount
 
 
 class Way(NamedTuple):
-    """A mode, and what else its users choose."""
+    """A temporal mode and its options."""
 
     mode: Mode = "reproject"
-    predictor: Predictor = "published"  # of wrls
-    traced: int = SAMPLES  # of ataa: samples more of a pixel where history fails
+    predictor: Predictor = "published"  # option of wrls
+    traced: int = SAMPLES  # option of ataa: additional samples of a pixel where history fails
 
     @property
     def name(self) -> str:
-        """For tables and charts."""
+        """The mode with options that differ from the defaults, for tables and charts."""
         if self.mode == "wrls" and self.predictor != "published":
             return f"{self.mode} {self.predictor}"
         if self.mode == "ataa" and self.traced != SAMPLES:
@@ -107,7 +107,7 @@ WAYS = {way.name: way for way in reversed(_ALL)}  # a name alone: the published 
 
 
 def resolver_of(gl: moderngl.Context, way: Way) -> Resolver | None:
-    """What makes its pictures; None: the film alone is shown."""
+    """The resolver of a mode; None for `reset`, which shows the film alone."""
     match way.mode:
         case "reset":
             return None
@@ -122,13 +122,13 @@ def resolver_of(gl: moderngl.Context, way: Way) -> Resolver | None:
 
 
 class Temporal:
-    """Follows a renderer; `reset` shows its film alone, and costs nothing."""
+    """Follows a renderer from view to view; the mode `reset` shows its film alone, at no cost."""
 
     def __init__(self, gl: moderngl.Context, way: Way = USUAL_WAY) -> None:
         """Nothing is compiled or allocated before it is needed."""
         self.end = END  # samples of the film from which on it is shown alone
         self._gl = gl
-        self._surfaces = [Surfaces(gl), Surfaces(gl)]  # of this view, of the one before
+        self._surfaces = [Surfaces(gl), Surfaces(gl)]  # of this view, and of the previous one
         self._pass = SurfacePass(gl)
         self._resolver = resolver_of(gl, way)
         self._is_prepared = False  # whether all passes are compiled
@@ -138,11 +138,11 @@ class Temporal:
 
     @property
     def surfaces(self) -> Surfaces:
-        """Of this view."""
+        """The G-buffer of this view."""
         return self._surfaces[0]
 
     def leave(self, renderer: Renderer, weights: Weights | None = None) -> None:
-        """What is shown becomes history: call it before an edit restarts the film."""
+        """Make what is shown the history; call it before an edit restarts the film."""
         if self._resolver and renderer.samples and not self.surfaces.scene:
             self._find(renderer)  # the first view of all
         if self._resolver and renderer.samples:
@@ -184,17 +184,17 @@ class Temporal:
         return self._resolved(self._resolver, renderer, weights)
 
     def is_shown(self, renderer: Renderer) -> bool:
-        """Whether the picture is not the film alone."""
+        """Whether the picture contains history, so that it is not the film alone."""
         return self._is_brought and renderer.samples < self.end
 
     def told(
         self, renderer: Renderer, number: Number, weights: Weights | None = None
     ) -> Told | None:
-        """A number of what is shown, valid as `show` is; None: there is none.
+        """A number of each pixel of what is shown, valid as `show` is; None if there is none.
 
-        `history`: samples that a pixel stands for, with those of the film; by `wrls` the views that
-        its model has seen. `weight`: by `wrls` that of the film in the fit, from 0 to 1.
-        `mask`: by `ataa` what a pixel shows where the mean over views fails (temporal/ataa.glsl).
+        `history`: samples that a pixel stands for, including those of the film; by `wrls` the views
+        that its model has seen. `weight`: by `wrls`, the weight of the film in the fit, 0 to 1.
+        `mask`: by `ataa`, what a pixel shows where the mean over views fails (temporal/ataa.glsl).
         """
         shown, resolver = self.show(renderer, weights), self._resolver
         if number == "mask":
@@ -206,17 +206,17 @@ class Temporal:
 
     @property
     def more_samples(self) -> float:
-        """What this view took beside the film, by `ataa`: the mean over pixels."""
+        """Samples per pixel that `ataa` traced for this view in addition to the film."""
         resolver, (width, height) = self._resolver, self.surfaces.size
         return resolver.more / (width * height) if isinstance(resolver, Ataa) and width else 0.0
 
     def forget(self) -> None:
-        """What was shown is no history for what comes."""
+        """Discard the history, so that the next view begins without it."""
         self._is_kept = self._is_brought = False
         self._resolved_at = None
 
     def release(self) -> None:
-        """Free what the driver holds."""
+        """Release all OpenGL resources."""
         self._pass.release()
         for surfaces in self._surfaces:
             surfaces.release()
@@ -247,12 +247,12 @@ class Temporal:
 
 
 def is_whole(renderer: Renderer, weights: Weights) -> bool:
-    """Whether paths alone, as the kernel sums them, are what is shown."""
+    """Whether the picture is the kernel's sum of paths: weights of 1, and no particles."""
     return are_trivial(weights) and renderer.settings.caustics == "off"
 
 
 def is_lit_alike(renderer: Renderer, before: Surfaces) -> bool:
-    """Whether a view shows the scene of another one, but for the camera and the size."""
+    """Whether a view has the scene and light of another one, apart from camera and size."""
     if not before.scene or not before.settings:
         return False
     same_scene = before.scene.model_copy(update={"camera": renderer.scene.camera})

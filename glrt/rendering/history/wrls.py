@@ -1,7 +1,7 @@
-"""Weighted recursive least squares: what is shown is predicted from the history of each pixel.
+"""Weighted recursive least squares: a model of each pixel's history predicts the picture.
 
 Iglesias-Guitian, Mane, Moon, "Real-Time Denoising of Volumetric Path Tracing for Direct Volume
-Rendering" (2020). Not colours are brought from view to view but the models that predict them.
+Rendering" (2020). Models are reprojected from view to view, not colours.
 """
 
 from typing import Literal
@@ -17,11 +17,11 @@ from glrt.rendering.history.reprojection import between
 
 Predictor = Literal["published", "delayed"]
 
-TEXTURES = 8  # of a view: predictions, and seven rows of models (temporal/wrls_rows.glsl)
+TEXTURES = 8  # for each view: predictions, and seven rows of models (temporal/wrls_rows.glsl)
 
 
 class Wrls:
-    """The film as models of the views before predict it."""
+    """Predicts the picture of a film by models that earlier views have fitted."""
 
     def __init__(self, gl: moderngl.Context, predictor: Predictor = "published") -> None:
         """Nothing is compiled or allocated before it is needed."""
@@ -37,10 +37,10 @@ class Wrls:
         self._frame = self._samples = 1.0  # samples of a frame, and of this view
 
     def arrive(self, now: Surfaces, before: Surfaces | None, is_same_light: bool) -> None:
-        """Bring the newest models, whatever the light: they follow it.
+        """Reproject the newest models, under any light: they adapt to it.
 
-        While something moves a view is a frame, however many samples it has, as in the paper. Under
-        other light a sample is one, so that what is old goes soon.
+        While something moves, a view is one frame, however many samples it has, as in the paper.
+        Under other light each sample is a frame, so that old light fades soon.
         """
         is_usable = before is not None and (self._has_made or self._has_brought)
         if self._has_made:
@@ -57,7 +57,7 @@ class Wrls:
         self._bring.draw(target, {**textures, "known_row": self._made.textures[1:]}, values)
 
     def show(self, now: Surfaces, fresh: Fresh) -> moderngl.Texture:
-        """Radiance, and the views that its model has seen."""
+        """The picture: radiance in RGB, in a the number of views that its model has seen."""
         size = fresh.mean.size
         has_history = self._has_brought and fresh.samples < fresh.end
         made, shown = self._sized(self._made, size), self._sized(self._shown, size)
@@ -77,11 +77,11 @@ class Wrls:
 
     @property
     def predictions(self) -> moderngl.Texture:
-        """Of what was shown last: radiance, and the weight of the film (0: no sample)."""
+        """Texture of the last prediction: radiance, in a the weight of the film (0: no sample)."""
         return self._made.textures[0]
 
     def release(self) -> None:
-        """Free what the driver holds."""
+        """Release all OpenGL resources."""
         for part in (self._bring, self._reconstruct, self._predict, self._smooth):
             part.release()
         for canvas in (self._brought, self._made, self._shown):

@@ -1,4 +1,4 @@
-"""Paths of a pixel as JSON, with the recipe to trace them again; and where two of them differ."""
+"""Store paths of a pixel as JSON, with the recipe to trace them again, and compare two paths."""
 
 import json
 import math
@@ -13,13 +13,13 @@ from glrt.rendering.paths.values import Path, PixelParticles, PixelPaths
 from glrt.settings import Frozen
 
 FORMAT: Literal[1] = 1
-LARGEST = 256 << 20  # bytes of a file that is read
-LISTED = 16  # samples of a file whose share of the light is told
+LARGEST = 256 << 20  # bytes of the largest file that is read
+LISTED = 16  # samples whose share of the light is stored
 TOLERANCE = 1e-3  # relative, of numbers from another driver: they grow apart with each bounce
 
 
 class StoredPaths(NamedTuple):
-    """What a file holds."""
+    """The content of a file of paths."""
 
     recipe: Recipe
     pixel: tuple[int, int]
@@ -33,7 +33,7 @@ class _Listed(Frozen):
 
 
 class _Particles(Frozen):
-    """What `glrt_paths` tells of particles."""
+    """The keys about particles in a file of paths."""
 
     samples: int = Field(ge=1)
     arriving: int = Field(ge=0)
@@ -42,7 +42,7 @@ class _Particles(Frozen):
 
 
 class _File(Frozen):
-    """The keys of a file beside its recipe."""
+    """The keys of a file of paths, except its recipe."""
 
     glrt_paths: Literal[1]
     pixel: tuple[int, int]
@@ -55,7 +55,7 @@ class _File(Frozen):
 
 
 def paths_to_json(found: PixelPaths) -> str:
-    """One line of ASCII that `paths_from_json` reads without loss."""
+    """The paths as one line of ASCII, which `paths_from_json` reads without loss."""
     shares = found.shares
     table = {
         "glrt_paths": FORMAT,
@@ -81,9 +81,9 @@ def _particles_table(found: PixelParticles) -> dict[str, Any]:
 
 
 def paths_from_json(text: str, source: str) -> StoredPaths:
-    """Read `paths_to_json`'s text; `source` is what messages call the file.
+    """Read the text of `paths_to_json`; messages call the file `source`.
 
-    Raises SceneError with one paragraph for anything else.
+    Raises SceneError with one paragraph for any other text.
     """
     table = _table(text, source)
     recipe = table.pop("recipe", None)
@@ -125,9 +125,10 @@ def _damaged(source: str, problem: str) -> SceneError:
 
 
 def first_difference(stored: Path, found: Path | None, tolerance: float) -> str | None:
-    """Where a path differs from a stored one of the same sample, in words; None: nowhere.
+    """Where a path first differs from a stored one of the same sample, in words; None: nowhere.
 
-    Numbers may differ by `tolerance` of the larger one, of vectors by their lengths; 0: by no bit.
+    Numbers may differ by `tolerance` relative to the larger one, vectors by their lengths. With a
+    `tolerance` of 0, no bit may differ.
     """
     if found is None:
         return f"particle {stored.particle} does not reach the pixel"

@@ -1,4 +1,4 @@
-"""The kernel that writes down what happens on paths, and the room for its records."""
+"""The kernel that records what happens on paths, and the buffers for its records."""
 
 from contextlib import ExitStack
 from dataclasses import dataclass
@@ -24,12 +24,12 @@ Pixel = tuple[int, int]  # column and row in the full frame, from 0, row 0 on to
 GROUP = 32  # samples or particles of a work group, as paths.comp has it
 TOGETHER = 512  # samples of a dispatch
 HEAD = 32  # bytes of the block before its samples
-FIRST_ROWS = 4096  # of vertices and of lights, until more are needed
+FIRST_ROWS = 4096  # room for vertices and for lights, until more is needed
 KINDS = {"Vertices": "VertexRecord", "Lights": "LightRecord"}  # blocks, with what they hold
 
 
 class Batch(NamedTuple):
-    """Records of a dispatch; those of vertices and lights come in any order."""
+    """Records of one dispatch; vertices and lights come in any order."""
 
     samples: Array
     vertices: Array
@@ -38,7 +38,7 @@ class Batch(NamedTuple):
 
 @dataclass
 class _Numbered:
-    """What a dispatch sees in place of a film: the number of its first sample."""
+    """Stands in for a film in a dispatch: it has the number of the first sample."""
 
     next_sample: int
     samples: int = 0
@@ -48,12 +48,12 @@ class _Numbered:
 
 
 class PathRecorder:
-    """Runs a pass of paths.comp over the scene of a plan, which is on the driver, and reads it."""
+    """Runs a pass of paths.comp over a plan's scene on the driver, and reads its records."""
 
     def __init__(
         self, context: Context, plan: Plan, scene: DeviceScene, render_pass: RenderPass
     ) -> None:
-        """Compile; RenderError if the driver refuses, or has no room."""
+        """Compile the kernel; RenderError if the driver refuses it or has no room."""
         self._context, self._plan, self._scene = context, plan, scene
         self._buffers: dict[str, moderngl.Buffer] = {}
         with ExitStack() as refused:
@@ -74,9 +74,9 @@ class PathRecorder:
         vertices: bool = True,
         lights: bool = True,
     ) -> Batch:
-        """What a pixel has of samples, or of one sample's particles `lanes`, first and end.
+        """Records of a pixel's samples, or of one sample's particles `lanes` (first and end).
 
-        One dispatch, or two where there are more records than room for them.
+        It takes one dispatch, or two if there are more records than room for them.
         """
         wanted = dict(zip(KINDS, (vertices, lights), strict=True))
         groups = -(-max(samples, lanes[1] - lanes[0]) // GROUP)
@@ -96,7 +96,7 @@ class PathRecorder:
         return Batch(self._read("Replay", "SampleRecord", samples, HEAD), *read)
 
     def release(self) -> None:
-        """Free what the driver holds."""
+        """Release all OpenGL resources."""
         self._context.programs.give_back(self._kernel)
         self._release_buffers()
 

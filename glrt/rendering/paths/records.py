@@ -1,4 +1,4 @@
-"""Records of a replay -> values: numbers of the kernel become those and names of the scene."""
+"""Convert records of a replay to values, with the object numbers and names of the scene."""
 
 from collections.abc import Sequence
 from itertools import pairwise
@@ -45,7 +45,7 @@ _SKIES: dict[int, Source] = {
 def paths_of(
     scene: Scene, first: int, samples: Array, vertices: Array, lights: Array
 ) -> tuple[Path, ...]:
-    """Paths of the samples from number `first` on, by their records in any order."""
+    """Paths of the samples from number `first` on, from their records in any order."""
     reader = _Reader(scene)
     vertices = vertices[np.lexsort((vertices["vertex"], vertices["sample_index"]))]
     lights = lights[np.lexsort((lights["number"], lights["sample_index"]))]
@@ -57,7 +57,7 @@ def paths_of(
 
 
 def particle_of(scene: Scene, sample: int, number: int, vertices: Array, lights: Array) -> Path:
-    """The path of one particle up to its last link to the camera, by its records in any order."""
+    """The path of one particle up to its last link to the camera, from its records in any order."""
     vertices = vertices[np.argsort(vertices["vertex"])]
     lights = lights[np.argsort(lights["number"])]
     end = int(lights["vertex"][-1]) + 1
@@ -70,26 +70,26 @@ def particle_of(scene: Scene, sample: int, number: int, vertices: Array, lights:
 
 
 def object_name(scene: Scene, number: int) -> str:
-    """What an object is called: by its name, or by its place in the file."""
+    """The name of an object, or its place in the scene file, such as `objects[2] (sphere)`."""
     thing = scene.objects[number]
     return thing.name or f"objects[{number}] ({thing.shape})"
 
 
 def _divided(records: Array, numbers: Sequence[int]) -> list[Array]:
-    """Sorted records by the samples that they are of."""
+    """Sorted records, split by the number of their sample."""
     ends = np.searchsorted(records["sample_index"], [*numbers, numbers[-1] + 1])
     return [records[start:end] for start, end in pairwise(ends)]
 
 
 class _Reader:
-    """Reads the records of paths through one scene."""
+    """Converts the records of paths through one scene."""
 
     def __init__(self, scene: Scene) -> None:
         self._scene, self._order = scene, order_of_kernel(scene)
         self._eye = np.array(scene.camera.position, np.float64)
 
     def path(self, number: int, sample: Any, vertices: Array, lights: Array) -> Path:
-        """One sample."""
+        """The path of one sample."""
         found: list[PathVertex] = []
         for record in vertices:
             found.append(self._vertex(record, found[-1].direction if found else None))
@@ -106,7 +106,7 @@ class _Reader:
         event = self._event(int(record["event"]), number, float(record["pdf"]))
         direction = _triple(record["direction"])
         shading = record["shading_normal"]
-        if np.dot(shading, record["normal"]) < 0:  # it is told on the side that the path came from
+        if np.dot(shading, record["normal"]) < 0:  # shown on the side that the path came from
             shading = -shading
         return PathVertex(
             event=event,
@@ -166,7 +166,7 @@ class _Reader:
 
 
 def _strategy(number: int, vertices: Sequence[PathVertex], source: Source) -> Strategy:
-    """`vertices` up to the light; an object that shines is the last of them."""
+    """How a light was found; `vertices` end at it, and an object that shines is the last one."""
     if number == NUMBERS["BY_PARTICLE"]:
         return "particle"
     if number == NUMBERS["BY_SAMPLING"]:

@@ -1,7 +1,7 @@
-"""Samples of single pixels traced again, with all that happens on their paths.
+"""Trace samples of single pixels again, and record all that happens on their paths.
 
-The path text is that of a render, and so are the random numbers, which hang on seed, sampler, place
-of the pixel and number of the sample: on software drivers the same bits come out.
+The text of the path tracer is that of a render. So are the random numbers, which depend on seed,
+sampler, place of the pixel and number of the sample. Software drivers therefore give the same bits.
 """
 
 from collections.abc import Iterator, Sequence
@@ -41,12 +41,12 @@ FOLLOWED = 1 << 16  # particles of a dispatch
 class PathReplay:
     """Traces samples of a plan again.
 
-    `scene` is that of the plan on the driver, which whoever made it frees. The plan's crop is of no
-    matter: pixels are numbered in the full frame.
+    `scene` is the plan's scene on the driver; its owner releases it. The plan's crop has no effect:
+    pixels are numbered in the full frame.
     """
 
     def __init__(self, context: Context, plan: Plan, scene: DeviceScene) -> None:
-        """Compile; UsageError where paths are not recorded, RenderError as ever."""
+        """Compile the kernels; UsageError for a method without recorded paths, or RenderError."""
         check_method(plan.settings)
         self._plan = plan
         self._paths = PathRecorder(context, plan, scene, PATHS)
@@ -58,7 +58,7 @@ class PathReplay:
                 refused.pop_all()
 
     def radiances(self, pixel: Pixel, samples: int) -> Array:
-        """What the samples 0 to `samples` - 1 bring, (samples, 3) float32; NaN: it is lost."""
+        """Radiance of the samples 0 to `samples` - 1, (samples, 3) float32; NaN for a lost one."""
         found = np.empty((samples, 3), np.float32)
         for first in range(0, samples, TOGETHER):
             count = min(TOGETHER, samples - first)
@@ -77,9 +77,9 @@ class PathReplay:
         return tuple(found[number] for number in numbers)
 
     def particles(self, pixel: Pixel) -> PixelParticles | None:
-        """All particles of all samples that reach the pixel, without their paths; None: none go.
+        """All particles of all samples that reach the pixel, without their paths; None without any.
 
-        They are those of whole observations, as in a render.
+        The samples make whole observations, as in a render.
         """
         if self._particles is None:
             return None
@@ -88,7 +88,7 @@ class PathReplay:
         return arrived([*self.arriving(pixel, samples)])
 
     def arriving(self, pixel: Pixel, samples: int) -> Iterator[Array]:
-        """Their records for `arrived`, of one sample after the other; none if no particles go."""
+        """Yield the records for `arrived`, one array for each sample; nothing without particles."""
         count = self._particle_count if self._particles else 0
         for sample in range(samples if self._particles else 0):
             found = []
@@ -100,7 +100,7 @@ class PathReplay:
             yield np.concatenate(found)
 
     def particle_path(self, pixel: Pixel, sample: int, number: int) -> Path | None:
-        """The path of a particle by its sample and its number; None: it does not arrive."""
+        """The path of a particle by its sample and number; None if it does not arrive."""
         if self._particles is None or number >= self._particle_count:
             return None
         batch = self._particles.records(pixel, sample, 1, (number, number + 1))
@@ -110,18 +110,18 @@ class PathReplay:
 
     @property
     def _particle_count(self) -> int:
-        """Of all pixels of the frame, for one sample."""
+        """Number of particles for one sample of all pixels of the frame."""
         return PARTICLE_GROUP * particle_groups(self._plan.settings)
 
     def release(self) -> None:
-        """Free what the driver holds."""
+        """Release all OpenGL resources."""
         self._paths.release()
         if self._particles:
             self._particles.release()
 
 
 def arrived(records: Sequence[Array]) -> PixelParticles:
-    """The particles that reach a pixel, by what each brings: `records` are those of its samples."""
+    """The particles that reach a pixel and what each brings; `records` has those of each sample."""
     lights = np.concatenate(records)
     lights = lights[np.isfinite(lights["added"]).all(axis=1)]
     lights = lights[np.lexsort((lights["number"], lights["lane"], lights["sample_index"]))]
@@ -134,7 +134,7 @@ def arrived(records: Sequence[Array]) -> PixelParticles:
 
 
 def check_method(settings: Settings) -> None:
-    """UsageError for a method whose paths are not recorded."""
+    """Raise UsageError for a method whose paths are not recorded."""
     if METHODS[settings.method].model:
         raise UsageError(
             f"paths are not shown of the method {settings.method}: it is a lighting model, which "
@@ -148,7 +148,7 @@ def check_method(settings: Settings) -> None:
 
 
 def check_pixel(pixel: Pixel, settings: Settings) -> None:
-    """UsageError for a pixel that a render with these settings does not have."""
+    """Raise UsageError for a pixel outside the picture or crop of these settings."""
     left, top, width, height = settings.crop or (0, 0, settings.width, settings.height)
     x, y = pixel
     if left <= x < left + width and top <= y < top + height:
@@ -168,7 +168,7 @@ def path_replay(
     tier: Tier = "baked",
     apart: Apart = "repeated",
 ) -> Iterator[tuple[PathReplay, Recipe]]:
-    """A replay of a scene of its own, and the recipe of what it traces.
+    """Open a replay of a scene, and yield it with the recipe of what it traces.
 
     Raises ContextError without OpenGL 4.3, UsageError, RenderError, and SceneError for a scene
     beyond the driver.
@@ -200,7 +200,7 @@ def path_replay(
 
 
 def check_context(context: Context) -> None:
-    """ContextError for an OpenGL that has the fragment pipeline alone."""
+    """Raise ContextError for an OpenGL that has the fragment pipeline alone."""
     if not context.has_compute:
         raise ContextError(
             f"paths cannot be recorded by the fragment pipeline: {context.renderer} offers OpenGL "
@@ -219,10 +219,10 @@ def pixel_paths(
     apart: Apart = "repeated",
     particles: int = 64,
 ) -> PixelPaths:
-    """What the samples of the settings bring to a pixel, and the paths of some of them.
+    """The radiance of all samples of a pixel, and the paths of some of them.
 
-    Those with these `numbers` (default: all), or the `brightest` so many, the brightest first; and
-    those of so many `particles`, the brightest first.
+    Paths are those of the samples `numbers` (default: all), or of the `brightest` samples with most
+    light, brightest first. The `particles` particles that bring most light have paths as well.
     """
     check_pixel(pixel, settings)
     check_samples(numbers or (), settings)
@@ -241,7 +241,7 @@ def pixel_paths(
 
 
 def check_samples(numbers: Sequence[int], settings: Settings) -> None:
-    """UsageError for the number of a sample that there is none of."""
+    """Raise UsageError for the number of a sample that does not exist."""
     for number in numbers:
         if not 0 <= number < settings.samples:
             raise UsageError(
@@ -251,7 +251,7 @@ def check_samples(numbers: Sequence[int], settings: Settings) -> None:
 
 
 def _runs(numbers: Sequence[int]) -> Iterator[tuple[int, int]]:
-    """First and count of runs of neighbours, TOGETHER at most in each."""
+    """First number and length of runs of consecutive numbers, at most TOGETHER long."""
     start = 0
     for end in range(1, len(numbers) + 1):
         is_next = end < len(numbers) and numbers[end] == numbers[end - 1] + 1

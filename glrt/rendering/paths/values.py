@@ -1,6 +1,6 @@
 """Paths of a pixel as values: where they went, what they met, and what light they brought.
 
-All numbers are those of the kernel, float32 as float; places are in the scene's own coordinates.
+All numbers are those of the kernel, float32 as float. Places are in scene coordinates.
 """
 
 from dataclasses import dataclass
@@ -40,7 +40,7 @@ End = Literal[
     "linked to the camera",
 ]
 
-MOST_NUMBER = 2**31 - 1  # of samples and particles, below which the kernel counts
+MOST_NUMBER = 2**31 - 1  # above all numbers of samples and particles in the kernel
 NUMBERS = read_constants(read("integrators/record_numbers.glsl"))
 ENDS: dict[int, End] = {
     NUMBERS["END_LEFT_SCENE"]: "left the scene",
@@ -54,7 +54,7 @@ ENDS: dict[int, End] = {
 
 
 class _Value(BaseModel):
-    """Immutable, without unknown keys; a sample may be infinite or no number, which is told."""
+    """Immutable, without unknown keys; infinite numbers and NaN are allowed, in JSON as strings."""
 
     model_config = ConfigDict(
         frozen=True, extra="forbid", allow_inf_nan=True, ser_json_inf_nan="strings"
@@ -62,7 +62,7 @@ class _Value(BaseModel):
 
 
 class PathVertex(_Value):
-    """A place where a path was, and what happened there; the first one is on the lens."""
+    """A place on a path, and what happened there; the first one is on the lens."""
 
     event: Event = Field(description="what happened there")
     position: Triple = Field(description="in scene units")
@@ -81,7 +81,7 @@ class PathVertex(_Value):
 
 
 class Contribution(_Value):
-    """Light that a path found."""
+    """Light that a path found from one of its vertices."""
 
     vertex: int = Field(description="number of the last vertex of the path when it was found")
     strategy: Strategy = Field(
@@ -105,7 +105,7 @@ class Contribution(_Value):
 
     @property
     def unweighted(self) -> Triple:
-        """What would have been added if this strategy were alone; 0 where its weight is 0."""
+        """`added`, if this strategy were the only one: without its weight; 0 for a weight of 0."""
         if not self.weight:
             return (0.0, 0.0, 0.0)
         x, y, z = (value / self.weight for value in self.added)
@@ -115,7 +115,7 @@ class Contribution(_Value):
 class Path(_Value):
     """One sample of a pixel: its path, and the light on it in the order in which it was found.
 
-    Or the path of a particle that reaches the pixel, from its lamp to where it is linked.
+    Or the path of a particle that reaches the pixel, from its lamp to its link to the camera.
     """
 
     sample: int = Field(description="its number, from 0", ge=0, lt=MOST_NUMBER)
@@ -133,61 +133,61 @@ class Path(_Value):
 
 @dataclass(frozen=True)
 class PixelParticles:
-    """What particles from lamps bring to one pixel."""
+    """Light that particles from lamps bring to one pixel."""
 
-    samples: int  # whose particles were followed: whole blocks of them
-    numbers: tuple[tuple[int, int], ...]  # sample and number of each that arrives
-    radiances: Array  # (n, 3): what each brings, in the mean over the particles of its sample
-    paths: tuple[Path, ...]  # of those that were asked for
+    samples: int  # samples whose particles were followed, in whole blocks
+    numbers: tuple[tuple[int, int], ...]  # sample and number of each particle that arrives
+    radiances: Array  # (n, 3): what each one brings, in the mean over its sample's particles
+    paths: tuple[Path, ...]  # paths of the requested particles
 
     @property
     def mean(self) -> Array:
-        """Their part of the pixel, (3,) float32, but for the fixed point in which a film sums."""
+        """Light of particles in the pixel, (3,) float32; a film sums in fixed point instead."""
         return np.asarray(self.radiances.astype(np.float64).sum(axis=0) / self.samples, np.float32)
 
     def brightest(self, count: int) -> list[tuple[int, int]]:
-        """Those that bring most light, with the brightest first."""
+        """Sample and number of the `count` particles that bring most light, the brightest first."""
         order = np.argsort(-self.radiances.astype(np.float64).sum(axis=1), kind="stable")
         return [self.numbers[index] for index in order[:count]]
 
 
 @dataclass(frozen=True)
 class PixelPaths:
-    """Samples of one pixel: what each brought, and the paths of some."""
+    """Samples of one pixel: the radiance of each, and the paths of some."""
 
     recipe: Recipe  # what was traced
     pixel: tuple[int, int]  # column and row in the full frame, from 0, row 0 on top
-    radiances: Array  # (n, 3) of the samples 0 to n - 1; of one that is lost NaN
-    paths: tuple[Path, ...]  # of the samples that were asked for
-    particles: "PixelParticles | None" = None  # that reach the pixel, with --caustics on
+    radiances: Array  # (n, 3) of the samples 0 to n - 1; NaN for a lost one
+    paths: tuple[Path, ...]  # paths of the requested samples
+    particles: "PixelParticles | None" = None  # particles that reach the pixel, with --caustics on
 
     @property
     def mean(self) -> Array:
-        """The pixel by paths from the camera, (3,) float32; to the bit on software drivers."""
+        """The pixel by paths from the camera, (3,) float32; bitwise on software drivers."""
         return running_mean(self.radiances)
 
     @property
     def lost(self) -> int:
-        """How many samples are not finite, or lost to the loop limit of the driver."""
+        """Number of samples that are not finite, or that the driver's loop limit has lost."""
         return int(np.sum(~np.isfinite(self.radiances).all(axis=1)))
 
     @property
     def shares(self) -> np.ndarray[Any, np.dtype[np.float64]]:
-        """The share of each sample of the light of all, (n,), by the sum of its channels."""
+        """The share of each sample in the light of all, (n,), by the sum of its channels."""
         light = self.radiances.astype(np.float64).sum(axis=1)
         light[~np.isfinite(light)] = 0.0
         shares: np.ndarray[Any, np.dtype[np.float64]] = light / max(light.sum(), 1e-300)
         return shares
 
     def brightest(self, count: int) -> list[int]:
-        """The samples that brought most light, with the brightest first; none that brought none."""
+        """Numbers of the `count` brightest samples, brightest first; none without light."""
         shares = self.shares
         order = np.argsort(-shares, kind="stable")[:count]
         return [int(number) for number in order if shares[number] > 0]
 
 
 def running_mean(radiances: Array) -> Array:
-    """The mean of samples, (n, 3), as `next_mean` of film/pixel.glsl takes it; not finite: none."""
+    """Mean of finite samples, (n, 3), with the rounding of `next_mean` in film/pixel.glsl."""
     mean = np.zeros(3, np.float32)
     finite = radiances[np.isfinite(radiances).all(axis=1)]
     for count, radiance in enumerate(finite, start=1):

@@ -1,4 +1,4 @@
-"""AOVs as colours: an AOV's film, drawn on any framebuffer."""
+"""Draw AOVs as colours, on any framebuffer."""
 
 import math
 
@@ -13,16 +13,16 @@ from glrt.scene.camera import Camera
 from glrt.settings import Aov
 
 _VERSION = "410 core"
-MOST_BOUNCES = 16  # that are told apart
+MOST_BOUNCES = 16  # numbers of bounces with colours of their own
 
 
 def scale_of_bounces(limit: int) -> Scale:
-    """The colours of numbers of bounces, where paths have so many at most."""
+    """The scale of colours for numbers of bounces, where paths have at most `limit`."""
     return Scale(VIRIDIS, 0.0, float(min(max(limit, 1), MOST_BOUNCES)), is_logarithmic=False)
 
 
 def cell_of(camera: Camera) -> float:
-    """After what length the colours of the position repeat: a power of ten, in scene units."""
+    """The length after which the colours of the position repeat: a power of ten, scene units."""
     return 10.0 ** math.floor(math.log10(camera.resolved_focus_distance))
 
 
@@ -35,10 +35,10 @@ class AovView:
         self._program: moderngl.Program | None = None
 
     def draw(self, aov: Aov, mean: moderngl.Texture, camera: Camera, bounces: int = 10) -> None:
-        """Albedo as sRGB; normals around middle grey; near things bright; a colour an object.
+        """Draw albedo as sRGB; normals around middle grey; near things bright; a colour an object.
 
-        What lies as far as the camera focuses is middle grey in the view of the depth. `bounces` is
-        the limit of the paths.
+        In the view of the depth, the focus distance of the camera is middle grey. `bounces` is the
+        limit of the paths.
         """
         program = self._program or self._compile()
         mean.use(0)
@@ -58,7 +58,7 @@ class AovView:
         self._quad.render(moderngl.TRIANGLE_STRIP, vertices=4)
 
     def release(self) -> None:
-        """Free program and quad."""
+        """Release program and quad."""
         if self._program:
             self._quad.release()
             self._program.release()

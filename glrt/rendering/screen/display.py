@@ -1,4 +1,4 @@
-"""The display pass: a film's mean, exposed, tone-mapped and encoded, on any framebuffer."""
+"""The display pass: expose, tone-map and encode a film's mean, on any framebuffer."""
 
 from typing import Any, get_args
 
@@ -16,7 +16,7 @@ class Display:
     """A full-screen quad that shows a texture of radiance."""
 
     def __init__(self, gl: moderngl.Context) -> None:
-        """Compile the pass; RenderError tells where the driver refuses it."""
+        """Compile the pass; RenderError says where the driver refuses it."""
         self._gl = gl
         self._program = drawing(
             gl, Source("display.vert", version=_VERSION), Source("display.frag", version=_VERSION)
@@ -41,7 +41,7 @@ class Display:
         return codes.reshape(height, width, 3)[::-1].copy()
 
     def release(self) -> None:
-        """Free program and quad."""
+        """Release program and quad."""
         self._quad.release()
         self._program.release()
 
@@ -49,7 +49,7 @@ class Display:
 def displayed(
     gl: moderngl.Context, picture: moderngl.Texture, settings: Settings
 ) -> np.ndarray[Any, Any]:
-    """`Display.read`, once."""
+    """Read a picture as `Display.read` does, with a pass for this call alone."""
     display = Display(gl)
     codes = display.read(picture, settings)
     display.release()

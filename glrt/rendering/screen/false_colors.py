@@ -1,7 +1,7 @@
-"""A number of each pixel as a colour: errors, dropped samples, differences, history, distances.
+"""Draw numbers of pixels as colours: errors, dropped samples, differences, history, distances.
 
-The error of a pixel is its share in that of the picture: the mean over pixels of its square is the
-square of `glrt.error.estimate.estimated_error`.
+The error of a pixel is its part of the picture's error: the mean square over pixels is the square
+of `glrt.error.estimate.estimated_error`.
 """
 
 import math
@@ -32,7 +32,7 @@ def _colors(codes: str) -> tuple[Color, ...]:
     return tuple((red / 255, green / 255, blue / 255) for red, green, blue in parts)
 
 
-# Even steps to the eye, and to one that sees no red or green. CC0: Smith and van der Walt, 2015.
+# Even steps to the eye, also with red-green blindness. CC0: Smith and van der Walt, 2015.
 VIRIDIS = _colors(
     "440154 482475 414487 355f8d 2a788e 21918c 22a884 44bf70 7ad151 bddf26 fde725",
 )
@@ -52,12 +52,12 @@ class Told(NamedTuple):
     """A number of each pixel of the history that is shown: `a` of a texture."""
 
     texture: moderngl.Texture
-    least: float  # where it is not above it, there is nothing to tell
+    least: float  # a pixel whose number is not above it has none
 
 
 @dataclass(frozen=True)
 class Scale:
-    """What colours numbers have, from `low` to `high`; what is beyond has that of the end."""
+    """The colours of numbers from `low` to `high`; beyond them, the colour of that end."""
 
     colors: tuple[Color, ...]
     low: float
@@ -65,14 +65,14 @@ class Scale:
     is_logarithmic: bool = True
 
     def share(self, numbers: ArrayLike) -> NDArray[np.float64]:
-        """Where numbers stand on the scale, from 0 to 1."""
+        """Positions of numbers on the scale, from 0 to 1."""
         number = np.clip(np.asarray(numbers, np.float64), self.low, self.high)
         if self.is_logarithmic:
             return np.asarray(np.log(number / self.low) / math.log(self.high / self.low))
         return np.asarray((number - self.low) / (self.high - self.low))
 
     def color(self, numbers: ArrayLike) -> NDArray[np.float64]:
-        """The colours of numbers (...) as (..., 3) sRGB: between two of the scale, their mix."""
+        """Colours of numbers (...) as (..., 3) sRGB, mixed between two colours of the scale."""
         share, steps = self.share(numbers), np.linspace(0.0, 1.0, len(self.colors))
         channels = [np.interp(share, steps, channel) for channel in np.transpose(self.colors)]
         return np.stack(channels, axis=-1)
@@ -87,12 +87,12 @@ DIFFERENCE = Scale(BLUE_WHITE_RED, -0.5, 0.5, is_logarithmic=False)
 
 
 def symmetric(scale: Scale, most: float) -> Scale:
-    """The scale from -most to most."""
+    """The scale with limits -most and most."""
     return replace(scale, low=-most, high=most)
 
 
 class FalseColors:
-    """Draws what a film tells beside its picture, on the framebuffer in use."""
+    """Draws statistics of a film in false colours, on the framebuffer in use."""
 
     def __init__(self, gl: moderngl.Context) -> None:
         """Nothing is compiled before it is needed."""
@@ -102,9 +102,9 @@ class FalseColors:
     def draw_error(
         self, film: Film, light: moderngl.Texture, weights: Weights, mean: float
     ) -> None:
-        """The relative error of each pixel's `light`, which is the film's under weights.
+        """Draw the relative error of each pixel of `light`, the film's radiance under weights.
 
-        `mean`: of the radiance, over pixels and channels.
+        `mean` is that of the radiance, over pixels and channels.
         """
         values: dict[str, Any] = {"shows": SHOWS["SHOWS_ERROR"], "dark": DARK * mean**2}
         values |= {"unsure": UNSURE, "luck": LUCK}
@@ -114,7 +114,7 @@ class FalseColors:
         self._draw(film, light, light, ERROR, values)
 
     def draw_dropped(self, film: Film, light: moderngl.Texture) -> None:
-        """How many samples of each pixel were not finite, over a dark picture."""
+        """Draw how many samples of each pixel were not finite, over a dark picture."""
         self._draw(film, light, light, DROPPED, {"shows": SHOWS["SHOWS_DROPPED"]})
 
     def draw_difference(
@@ -125,24 +125,24 @@ class FalseColors:
         mean: float,
         scale: Scale = DIFFERENCE,
     ) -> None:
-        """(Y - Y') / sqrt(Y'^2 + 0.01 mean^2) of luminances; Y' and `mean` are the other's."""
+        """Draw (Y - Y') / sqrt(Y'^2 + 0.01 mean^2) of luminances; Y' and `mean` are the other's."""
         values = {"shows": SHOWS["SHOWS_DIFFERENCE"], "dark": DARK * mean**2}
         self._draw(film, light, other, scale, values)
 
     def draw_history(self, film: Film, light: moderngl.Texture, told: Told, scale: Scale) -> None:
-        """A number of the history of each pixel; grey where there is none."""
+        """Draw a number of the history of each pixel; grey where there is none."""
         values = {"shows": SHOWS["SHOWS_HISTORY"], "least": told.least}
         self._draw(film, light, told.texture, scale, values)
 
     def draw_distances(
         self, film: Film, light: moderngl.Texture, balls: moderngl.Texture, scale: Scale
     ) -> None:
-        """What `ProbeBalls` drew: the distances of probes, over a dark picture."""
+        """Draw the distances of probes, as `ProbeBalls` draws them, over a dark picture."""
         values = {"shows": SHOWS["SHOWS_PROBES"], "least": -0.5}
         self._draw(film, light, balls, scale, values)
 
     def release(self) -> None:
-        """Free program and quad."""
+        """Release program and quad."""
         if self._program:
             self._quad.release()
             self._program.release()

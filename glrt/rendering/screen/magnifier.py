@@ -1,4 +1,4 @@
-"""Part of a picture larger than it is, with sharp pixels: Dear ImGui's textures are smoothed."""
+"""Enlarge a part of a picture with sharp pixels, since Dear ImGui smooths its textures."""
 
 import moderngl
 
@@ -10,7 +10,7 @@ _VERSION = "410 core"
 
 
 class Magnifier:
-    """Draws parts of textures into one of its own."""
+    """Draws parts of textures, enlarged, into a texture of its own."""
 
     def __init__(self, gl: moderngl.Context) -> None:
         """Nothing is compiled before it is needed."""
@@ -24,9 +24,9 @@ class Magnifier:
         part: tuple[float, float, float, float],
         size: tuple[int, int],
     ) -> moderngl.Texture:
-        """A part (left, top, width, height in pixels, from the upper left) on so many pixels.
+        """Draw a part (left, top, width, height in pixels, from the upper left) on `size` pixels.
 
-        The texture that is returned is valid until the next call; its row 0 is the lowest.
+        The returned texture is valid until the next call; its row 0 is the lowest.
         """
         program = self._program or self._compile()
         picture.use(0)
@@ -38,7 +38,7 @@ class Magnifier:
         return self._canvas.texture
 
     def release(self) -> None:
-        """Free what the driver holds."""
+        """Release all OpenGL resources."""
         self._canvas.release()
         if self._program:
             self._quad.release()

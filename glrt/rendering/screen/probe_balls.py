@@ -1,4 +1,4 @@
-"""Probes as balls over a picture, so that it is seen what each holds, and where light leaks."""
+"""Draw probes as balls over a picture, to show what each holds and where light leaks."""
 
 import moderngl
 import numpy as np
@@ -12,8 +12,8 @@ from glrt.plan.probe_grid import Grid
 from glrt.rendering.probe_tracer import ProbeTracer
 from glrt.scene.camera import Camera
 
-RADIUS = 0.1  # of a ball, in the shortest edge of a cell
-FARTHEST = 1.5  # of a cell's diagonal: what is farther counts so in the maps (probes/blend.glsl)
+RADIUS = 0.1  # of a ball, in shortest edges of a cell
+FARTHEST = 1.5  # of a cell's diagonal: the maps hold no larger distance (probes/blend.glsl)
 _VERSION = "410 core"
 
 
@@ -23,7 +23,7 @@ def farthest(grid: Grid) -> float:
 
 
 class ProbeBalls:
-    """Draws a ball for each probe that is of use: by direction, its light and its distances."""
+    """Draws a ball for each useful probe, with its light and its distances by direction."""
 
     def __init__(self, gl: moderngl.Context) -> None:
         """Nothing is compiled before it is needed."""
@@ -39,10 +39,10 @@ class ProbeBalls:
         probes: ProbeTracer,
         camera: Camera,
     ) -> moderngl.Texture:
-        """Over the radiance `light` of a picture, where its AOV `depth` is not nearer.
+        """Draw balls over the radiance `light` of a picture, where its AOV `depth` is not nearer.
 
-        RGBA32F, valid until the next call; a: mean distance in scene units, below 0 beside balls.
-        On a ball, radiance is irradiance / pi by its normal.
+        Returns RGBA32F, valid until the next call; a: mean distance in scene units, below 0 outside
+        balls. On a ball, radiance is irradiance / pi by its normal.
         """
         program = self._program or self._compile()
         width, height = light.size
@@ -63,7 +63,7 @@ class ProbeBalls:
         return self._canvas.texture
 
     def release(self) -> None:
-        """Free what the driver holds."""
+        """Release all OpenGL resources."""
         self._canvas.release()
         for part in (self._squares, self._order, self._program):
             if part:
@@ -73,7 +73,7 @@ class ProbeBalls:
     def _squares_of(
         self, grid: Grid, camera: Camera, program: moderngl.Program
     ) -> moderngl.VertexArray:
-        """The picture, and over it the balls: far ones first, so that near ones hide them."""
+        """Vertices of the picture, then of the balls, far ones first: near ones hide them."""
         away = np.linalg.norm(grid.places() - np.array(camera.position, np.float64), axis=1)
         order = np.concatenate([[-1], np.argsort(-away)]).astype(np.int32)
         if self._order and self._order.size == order.nbytes:

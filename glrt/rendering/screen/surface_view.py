@@ -1,6 +1,6 @@
 """The first surface under simple light: two AOVs as one picture, drawn on any framebuffer.
 
-It has no noise to speak of, where a few samples of the light of a scene are nothing else.
+It has hardly any noise, while a few samples of a scene's light are hardly anything else.
 """
 
 import moderngl
@@ -24,7 +24,7 @@ class SurfaceView:
         self._program: moderngl.Program | None = None
 
     def draw(self, albedo: moderngl.Texture, normal: moderngl.Texture, camera: Camera) -> None:
-        """The means of both AOVs, as sRGB; what meets nothing is grey."""
+        """Draw the means of both AOVs, as sRGB; pixels that meet nothing are grey."""
         program = self._program or self._compile()
         width, height = albedo.size
         for number, (name, mean) in enumerate((("albedo", albedo), ("normal", normal))):
@@ -35,7 +35,7 @@ class SurfaceView:
         self._quad.render(moderngl.TRIANGLE_STRIP, vertices=4)
 
     def release(self) -> None:
-        """Free program and quad."""
+        """Release program and quad."""
         if self._program:
             self._quad.release()
             self._program.release()

@@ -1,7 +1,7 @@
 """Files that a scene names: held to a folder, limited in size, known by their SHA-256.
 
 A scene names a mesh or an image by a path with '/', relative to a base folder; such a file may name
-others, relative to itself. What is outside the base folder is not read unless the user allows it: a
+others, relative to itself. Files outside the base folder are not read unless the user allows it: a
 scene from a stranger must not carry a private file into a picture.
 """
 
@@ -32,9 +32,9 @@ from glrt.scene.files.path_text import (
 LARGEST = 1 << 30  # bytes of a file
 LARGEST_IN_ALL = 4 << 30  # bytes of all files of a scene
 
-_MOST_NEIGHBOURS = 1000  # that a misspelt name is compared with
+_MOST_NEIGHBOURS = 1000  # names that a misspelt one is compared with
 _DRIVE = re.compile(r"[A-Za-z]:")
-# A pipe must not make the open wait; a link that replaced the file since it was looked at fails.
+# Opening must not wait for a pipe, and must fail for a link that has replaced the checked file.
 _CAREFULLY = getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOFOLLOW", 0)
 
 
@@ -42,10 +42,11 @@ _CAREFULLY = getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOFOLLOW", 0)
 class AssetFolder:
     """Where the files of a scene may lie, how large they may be, and which content they must have.
 
-    `base` is the folder of the scene file; for a picture's recipe, that of the picture or the one
-    that the user gives. `allow_outside` is the user's alone: no picture may set it. `expected` are
-    the SHA-256 of a recipe in hex, by path as `AssetReader.hashes` gives them: other files are
-    refused, and other content too unless `accept_changed`; None for a scene file. Sizes in bytes.
+    `base` is the folder of the scene file; for a picture's recipe, it is the folder of the picture
+    or the one that the user gives. Only the user may set `allow_outside`; no picture may.
+    `expected` holds the SHA-256 of a recipe in hex, by path as `AssetReader.hashes` gives them, and
+    None for a scene file. Other files are refused, and other content too unless `accept_changed`.
+    Sizes are in bytes.
     """
 
     base: Path
@@ -60,8 +61,8 @@ class AssetFolder:
 class Asset:
     """A file as it was read, and the SHA-256 of that content in hex.
 
-    `path` is relative to the base folder, with '/'; absolute only for a file outside that was named
-    so.
+    `path` is relative to the base folder, with '/'. It is absolute only for a file outside that was
+    named so.
     """
 
     path: str
@@ -71,7 +72,7 @@ class Asset:
 
     @property
     def size(self) -> int:
-        """In bytes."""
+        """Size in bytes."""
         return len(self.content)
 
 
@@ -84,40 +85,42 @@ class AssetReader:
     def __init__(self, folder: AssetFolder) -> None:
         self._folder = folder
         self._by_path: dict[str, Asset] = {}
-        self._by_file: dict[str, Asset] = {}  # by path without links
+        self._by_file: dict[str, Asset] = {}  # by path, links resolved
 
     @property
     def assets(self) -> tuple[Asset, ...]:
-        """The files read so far, in order; one that has two paths is there twice."""
+        """The files read so far, in order; a file that has two paths is there twice."""
         return tuple(self._by_path.values())
 
     @property
     def hashes(self) -> dict[str, str]:
-        """What a recipe stores: SHA-256 in hex by path, of the files read so far."""
+        """SHA-256 in hex of the files read so far, by path, as a recipe stores them."""
         return {path: asset.sha256 for path, asset in self._by_path.items()}
 
     def read(self, path: str, where: str, named_by: Asset | None = None) -> Asset:
-        """The file at a path with '/', relative to the base folder, or to the file that names it.
+        """Return the file at a path with '/', relative to the base folder or to the file naming it.
 
         `..` goes up in the path as it is written, as in a URL, before links are followed. `where`
         begins messages: the scene file and the key, as `room.toml: objects[2].file`. Raises
-        `SceneError` for a path that leads out of the base folder, directly or by a link; for what
-        is missing, unreadable, no file, or too large; for a file that is not as `expected`.
+        `SceneError` for a path that leads out of the base folder, directly or by a link; for a file
+        that is missing, unreadable, no regular file, or too large; and for a file that is not as
+        `expected`.
         """
         place = f"{where}: {named_by.path}" if named_by else where
         try:
             return self._read(_joined(path, named_by))
         except _RefusedError as refused:
             raise SceneError(f"{place}: {refused}") from None
-        except ValueError:  # of the system's functions, for a NUL or half a pair of surrogates
+        except ValueError:  # from the system's functions, for a NUL or half a pair of surrogates
             raise SceneError(f"{place}: no file can have the name {quoted(path)}.") from None
 
     def spelled(self, path: str, folder: str = "") -> str:
-        """The path of a file that a model in a folder names, from the base folder.
+        """Return the path, from the base folder, of a file that a model in a folder names.
 
-        As the file system spells it, where something fits: models name files with '\\' between
+        It is spelled as in the file system, if an entry fits: models name files with '\\' between
         folders, by paths of another machine, in letters of another case, with accents in another
-        normal form, or with '%20' for a blank. A path that leads out is not looked for.
+        normal form, or with '%20' for a blank. A path that leads out of the base folder is not
+        looked for, unless the user allows it.
         """
         joined = posixpath.join(folder, path)
         if self._folder.allow_outside and (self._folder.base / name_of(joined)).is_file():
@@ -168,11 +171,11 @@ class AssetReader:
 
 
 class _RefusedError(ValueError):
-    """A file that is not read: what of it, and what to do."""
+    """A file is not read; the message says why, and what to do."""
 
 
 def _joined(path: str, named_by: Asset | None) -> str:
-    """A path from the base folder; raises `_RefusedError` for what is no path with '/'."""
+    """Return a path from the base folder; raises `_RefusedError` if it is no path with '/'."""
     if not path:
         raise _RefusedError("the path of a file is empty. Give the path of one.")
     if has_stray_backslash(path):
@@ -182,14 +185,15 @@ def _joined(path: str, named_by: Asset | None) -> str:
 
 
 def folder_of(path: str) -> str:
-    """The folder of a file, by their paths from the base folder; "" for that folder."""
+    """Return the folder of a file, both as paths from the base folder; "" is the base folder."""
     return posixpath.dirname(path)
 
 
 def _located(name: str, folder: AssetFolder) -> str:
-    """The path without links; raises `_RefusedError` if it lies outside the folder.
+    """Return the path without links; raises `_RefusedError` if it lies outside the folder.
 
-    A name that leads out is refused before the system is asked, which would tell whether it exists.
+    A name that leads out is refused before the system is asked, which would reveal whether it
+    exists.
     """
     if folder.allow_outside:
         return os.path.realpath(folder.base / name_of(name))
@@ -228,7 +232,7 @@ def _check_content(name: str, digest: str, folder: AssetFolder) -> None:
 
 
 def _read_at_most(real: str, most: int) -> bytes | None:
-    """What a file holds, or None if that is more than `most` bytes; raises OSError."""
+    """Return the content of a file, or None if it has more than `most` bytes; raises OSError."""
     check_regular(Path(real))  # before it is opened: opening a device can act on it
     with open(real, "rb", opener=lambda path, flags: os.open(path, flags | _CAREFULLY)) as file:
         status = os.fstat(file.fileno())
@@ -253,7 +257,7 @@ def _obstacle(error: OSError, name: str, real: str, folder: AssetFolder) -> str:
 
 
 def _advice(real: str, folder: AssetFolder) -> str:
-    """What to do about a missing file, which lies inside the folder, or the user allows others."""
+    """Return advice on a missing file, which lies inside the folder, or the user allows others."""
     near = nearest(text_of(os.path.basename(real)), _neighbours(os.path.dirname(real)))
     if near:
         return f"; did you mean {quoted(near)}?"
@@ -272,7 +276,7 @@ def _neighbours(folder: str) -> tuple[str, ...]:
 
 
 def _entry_like(name: str, folder: Path) -> str:
-    """The name as the folder spells it; the name itself where the folder has nothing like it."""
+    """Return the name as the folder spells it, or itself where the folder has nothing like it."""
     try:
         if (folder / name_of(name)).exists():
             return name

@@ -15,7 +15,7 @@ PATH_SCHEMA = {"type": "string", "minLength": 1, "maxLength": _LONGEST}
 
 
 class NamedFile(Frozen):
-    """A file; equal to another of its kind if path and content are."""
+    """A file that a scene names; equal to another of its kind if path and SHA-256 are equal."""
 
     file: Annotated[Name, Field(max_length=_LONGEST)] = Field(
         description="path with '/', relative to the folder of the scene; `\\xHH` is a byte of a "
@@ -28,21 +28,21 @@ class NamedFile(Frozen):
 
     @property
     def origin(self) -> Path | None:
-        """The file that was read."""
+        """The location of the file that was read; None before it is read."""
         return self._origin
 
     @property
     def path(self) -> str:
-        """That of the file: `FILE.glb#2` is in one of the name before the number."""
+        """Path of the file itself: `FILE.glb` for an image `FILE.glb#2` inside it."""
         return container_of(self.file)[0]
 
     @property
     def companions(self) -> Mapping[str, str]:
-        """SHA-256 in hex by path, of other files that it was read from."""
+        """SHA-256 in hex, by path, of other files from which the content was read."""
         return self._companions
 
     def with_companions(self, hashes: Mapping[str, str]) -> Self:
-        """The file, which knows the others that it was read from."""
+        """Return a copy with these SHA-256, by path, of other files from which it was read."""
         found = self.model_copy()
         found._companions = hashes
         return found
@@ -60,13 +60,13 @@ _INSIDE = re.compile(r"(.+\.(?:glb|gltf))#([0-9]{1,6})", re.IGNORECASE)
 
 
 def container_of(path: str) -> tuple[str, int | None]:
-    """The file of a path, and the number of the image in it that the path means, if any."""
+    """Return the file of a path, and the number of the image in it that the path means, if any."""
     match = _INSIDE.fullmatch(path)
     return (match[1], int(match[2])) if match else (path, None)
 
 
 def by_path(kind: type[NamedFile]) -> Callable[[Any], Any]:
-    """What makes a file of a kind from the path that a scene file gives."""
+    """Return a function that makes a file of a kind from the path in a scene file."""
 
     def read(value: Any) -> Any:
         if isinstance(value, kind):
@@ -79,5 +79,5 @@ def by_path(kind: type[NamedFile]) -> Callable[[Any], Any]:
 
 
 def to_path(named: NamedFile | None) -> str | None:
-    """What a scene file says of it: the path alone."""
+    """Return the path alone, as a scene file gives it; None without a file."""
     return named.file if named else None

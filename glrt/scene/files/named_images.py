@@ -20,11 +20,11 @@ class ImageFile(NamedFile):
 
     @property
     def pixels(self) -> Pixels | None:
-        """(H, W, 3), linear, row 0 on top; None before the file is read."""
+        """Pixels, (H, W, 3), linear, row 0 on top; None before the file is read."""
         return self._pixels
 
     def read_as(self, sha256: str, pixels: Pixels, origin: Path | None) -> "ImageFile":
-        """The image with its content."""
+        """Return the image with its content."""
         found = ImageFile(file=self.file, sha256=sha256)
         found._pixels, found._origin = pixels, origin
         return found
@@ -39,18 +39,18 @@ class TextureImage(NamedFile):
 
     @property
     def texels(self) -> Texels | None:
-        """(H, W, 4), linear, alpha last, row 0 on top; None before the file is read."""
+        """Texels, (H, W, 4), linear, alpha last, row 0 on top; None before the file is read."""
         return self._texels
 
     def read_as(self, sha256: str, texels: Texels, origin: Path | None) -> Self:
-        """The image with its content."""
+        """Return the image with its content."""
         found = type(self)(file=self.file, sha256=sha256)
         found._texels, found._origin = texels, origin
         return found
 
     @classmethod
     def named(cls, path: str) -> Any:
-        """The image of a path, or the path where it cannot be one, which validation tells."""
+        """Return the image of a path, or an invalid path itself, which validation reports."""
         try:
             return cls(file=path)
         except ValueError:
@@ -73,7 +73,7 @@ def _texture(value: Any) -> Any:
     return value if isinstance(value, TextureImage) else by_path(ColorImage)(value)
 
 
-# In a scene file, the path alone.
+# A scene file holds the path alone.
 NamedImage = Annotated[
     ImageFile,
     BeforeValidator(by_path(ImageFile)),

@@ -15,7 +15,7 @@ from glrt.scene.meshes.triangle_meshes import TriangleMesh, checked
 
 
 class MeshFile(NamedFile):
-    """A mesh in a file, or of arrays, under the name of the file that it is saved as."""
+    """A mesh from a file, or from arrays under the name of the file that it is saved as."""
 
     _triangles: TriangleMesh | None = PrivateAttr(None)
     _content: bytes | None = PrivateAttr(None)
@@ -24,33 +24,33 @@ class MeshFile(NamedFile):
 
     @property
     def triangles(self) -> TriangleMesh | None:
-        """None before the file is read."""
+        """The triangles of the mesh; None before the file is read."""
         return self._triangles
 
     @property
     def content(self) -> bytes | None:
-        """What the file of a mesh from arrays holds; None for one that was read."""
+        """Content of the file of a mesh from arrays; None for a mesh that was read from a file."""
         return self._content
 
     @property
     def libraries(self) -> Mapping[str, str]:
-        """SHA-256 in hex by path, of the files that materials alone were taken from."""
+        """SHA-256 in hex, by path, of the files from which materials alone were taken."""
         return self._libraries
 
     @property
     def unread(self) -> tuple[str, ...]:
-        """What of those files and of its own was left out."""
+        """Parts of this file and of its libraries that were left out, in words."""
         own = self._triangles.unread if self._triangles else ()
         return tuple(sorted({*self._unread, *own}))
 
     def with_libraries(self, hashes: Mapping[str, str], unread: tuple[str, ...]) -> "MeshFile":
-        """The mesh, which knows where its materials were taken from, and what else was left out."""
+        """Return a copy with the files of its materials, SHA-256 by path, and more omissions."""
         found = self.model_copy()
         found._libraries, found._unread = hashes, (*self._unread, *unread)
         return found
 
     def read_as(self, sha256: str, triangles: TriangleMesh, origin: Path | None) -> "MeshFile":
-        """The mesh with its content."""
+        """Return the mesh with its content."""
         found = MeshFile(file=self.file, sha256=sha256)
         found._triangles, found._origin = triangles.outward, origin
         return found
@@ -59,7 +59,7 @@ class MeshFile(NamedFile):
 def mesh_of_arrays(
     vertices: Any, faces: Any, normals: Any = None, colors: Any = None, uv: Any = None
 ) -> MeshFile:
-    """A mesh from arrays, under the name of the file that it is saved as.
+    """Return a mesh from arrays, under the name of the file that it is saved as.
 
     Raises ValueError, which says what is wrong with which row.
     """
@@ -74,7 +74,7 @@ def mesh_of_arrays(
 
 
 def two_columns(uv: Any) -> NDArray[np.float64]:
-    """Texture coordinates as (v, 2); ValueError for what is none."""
+    """Return texture coordinates as (v, 2) float64; ValueError if they have no such shape."""
     found = np.asarray(uv)
     if found.ndim != 2 or found.shape[1] != 2 or found.dtype.kind not in "fiu":
         raise ValueError(f"uv must be an array of numbers of shape (n, 2), got {found.shape}")
@@ -82,7 +82,7 @@ def two_columns(uv: Any) -> NDArray[np.float64]:
 
 
 def _ply(mesh: TriangleMesh) -> bytes:
-    """A binary PLY file with every digit."""
+    """Return a binary PLY file with every digit of the mesh."""
     tables = {"x y z": mesh.vertices, "nx ny nz": mesh.normals, "red green blue": mesh.colors}
     if mesh.uv is not None:  # t grows upwards, as other programs have it
         tables["s t"] = np.stack([mesh.uv[:, 0], 1 - mesh.uv[:, 1]], axis=1)
@@ -106,7 +106,7 @@ def _ply(mesh: TriangleMesh) -> bytes:
     return out.getvalue()
 
 
-# In a scene file, the path alone.
+# A scene file holds the path alone.
 NamedMesh = Annotated[
     MeshFile,
     BeforeValidator(by_path(MeshFile)),

@@ -15,27 +15,27 @@ _ESCAPE = re.compile(
 
 
 def text_of(name: str) -> str:
-    """The text of a name or path that the system gave; `name_of` undoes it."""
+    """Return the text of a name or path that the system gave; `name_of` undoes it."""
     return text_of_bytes(os.fsencode(name).replace(b"\\", rb"\x5c"))
 
 
 def text_of_bytes(path: bytes) -> str:
-    """The text of a path that a file holds, whose backslashes stay: they divide no folders."""
+    """Return the text of a path in a file; its backslashes stay, since they divide no folders."""
     content = _CONTROL.sub(lambda byte: rb"\x%02x" % byte[0][0], path)
     return content.decode("utf-8", "backslashreplace")
 
 
 def name_of(text: str) -> str:
-    """The name or path of a text, as the system takes it; ValueError if it cannot be one."""
+    """Return the name or path of a text, as the system takes it; ValueError if it cannot be one."""
     return os.fsdecode(_ESCAPE.sub(lambda found: bytes.fromhex(found[1].decode()), text.encode()))
 
 
 def has_stray_backslash(text: str) -> bool:
-    r"""Whether there is a backslash that is not of a `\xHH`."""
+    r"""Return whether there is a backslash that is not part of a `\xHH`."""
     return b"\\" in _ESCAPE.sub(b"", text.encode())
 
 
 def with_slashes(text: str) -> str:
-    """A path with '/' in place of backslashes that are not of a `\\xHH`, as Windows writes them."""
+    """Return a path with '/' in place of Windows' backslashes, those of `\\xHH` excepted."""
     folders = re.sub(rb"(%b)|\\" % _ESCAPE.pattern, lambda found: found[1] or b"/", text.encode())
     return folders.decode()

@@ -1,4 +1,4 @@
-"""Images of float values in files: Radiance .hdr and OpenEXR, whose values are linear."""
+"""Read images of linear float values: Radiance .hdr and OpenEXR."""
 
 import re
 from collections.abc import Iterator, Mapping
@@ -19,25 +19,25 @@ Pixels = NDArray[np.float32]
 Bytes = NDArray[np.uint8]
 
 MOST_PIXELS = 16384**2
-_MOST_CHANNELS = 16  # of an OpenEXR file with so many pixels: all of them are read
+_MOST_CHANNELS = 16  # of an OpenEXR file with MOST_PIXELS: all channels are read
 
-# x and y of red, green, blue and white: Rec. 709 and D65, of linear sRGB.
+# x and y of red, green, blue and white in linear sRGB: Rec. 709 and D65.
 _REC_709 = (0.64, 0.33, 0.3, 0.6, 0.15, 0.06, 0.3127, 0.329)
-_SAME = 0.005  # between roundings of these and other primaries
+_SAME = 0.005  # largest difference between roundings of these primaries
 _FAINT = 1e-3  # share of all light that negative colours may have
 
 
 class RefusedImageError(Exception):
-    """An image that is not read: what of it, and what to do, to follow "this image"."""
+    """An image is not read; the message follows "this image" and says why, and what to do."""
 
 
 def damaged(problem: str) -> RefusedImageError:
-    """The refusal of a file that breaks the rules of its format."""
+    """Return the error for a file that breaks the rules of its format."""
     return RefusedImageError(f"is damaged: {shortened(problem)}. Copy or export it again")
 
 
 def check_size(width: float, height: float) -> None:
-    """Raise RefusedImageError for a size that is none, or more than memory is given for."""
+    """Raise RefusedImageError for an image without pixels, or with more than MOST_PIXELS."""
     if min(width, height) < 1:
         raise damaged("it has no pixels")
     if width * height > MOST_PIXELS:
@@ -49,7 +49,7 @@ def check_size(width: float, height: float) -> None:
 
 @contextmanager
 def reading() -> Iterator[None]:
-    """Make a refusal of whatever a library raises of a damaged file: errors of a dozen kinds."""
+    """Turn the dozen kinds of errors that libraries raise for a damaged file into a refusal."""
     try:
         yield
     except (RefusedImageError, MemoryError):
@@ -59,7 +59,7 @@ def reading() -> Iterator[None]:
 
 
 def _checked(pixels: Pixels, channels: str, color: bool) -> Pixels:
-    """The pixels; raises for what no light can be: NaN, infinite, and negative colours.
+    """Return the pixels; raises RefusedImageError for NaN, infinite values, and negative colours.
 
     Colours that are negative by next to nothing, as filters leave them, become 0.
     """
@@ -82,21 +82,21 @@ def _checked(pixels: Pixels, channels: str, color: bool) -> Pixels:
 
 
 def _first(wrong: NDArray[np.bool_]) -> tuple[int, ...]:
-    """How many are true, and the indices of the first."""
+    """Return how many are true, and the indices of the first."""
     return int(wrong.sum()), *map(int, np.unravel_index(wrong.argmax(), wrong.shape))
 
 
 # --- Radiance .hdr ---------------------------------------------------------------------------
 
-_DARKEST = 1e-30  # exposure: its inverse is a float32 number too
+_DARKEST = 1e-30  # least exposure: its inverse is a float32 number too
 _HDR_SIZE = re.compile(rb"([-+])([XY]) +(\d{1,9}) +([-+])([XY]) +(\d{1,9})\r?\n")
 
 
 def decode_hdr(content: bytes, color: bool) -> Pixels:
-    """The Radiance picture format, in Greg Ward's "Real Pixels" (Graphics Gems II) and his manual.
+    """Decode the Radiance picture format, after "Real Pixels" (Graphics Gems II) by Greg Ward.
 
-    A pixel is (R, G, B) 2^(E - 136), and black for E = 0, as other renderers read it: what was 1 is
-    1. Ward's own programs add half a step to R, G and B.
+    His manual is the other source. A pixel is (R, G, B) 2^(E - 136), and black for E = 0, as other
+    renderers read it: what was 1 is 1. Ward's own programs add half a step to R, G and B.
     """
     header, _, rest = content.partition(b"\n\n")
     exposure = _hdr_exposure(header.decode("latin-1").split("\n"))
@@ -106,14 +106,14 @@ def decode_hdr(content: bytes, color: bool) -> Pixels:
     lines, length = int(size[3]), int(size[6])
     check_size(length, lines)
     rgbe = _hdr_pixels(rest, size.end(), lines, length)
-    with np.errstate(over="ignore"):  # what is infinite is refused
+    with np.errstate(over="ignore"):  # infinite values are refused below
         powers = np.ldexp(1.0, np.arange(256) - 136) * (np.arange(256) > 0)
         pixels = rgbe[:, :, :3] * powers.astype(np.float32)[rgbe[:, :, 3:]] / exposure
     return _checked(_hdr_upright(pixels, size), "RGB", color)
 
 
 def _hdr_upright(pixels: Pixels, size: re.Match[bytes]) -> Pixels:
-    """Row 0 on top and column 0 on the left, of lines whose order the header tells."""
+    """Return pixels with row 0 on top and column 0 on the left; the header gives their order."""
     by_rows = size[2] == b"Y"
     upright = pixels if by_rows else pixels.swapaxes(0, 1)
     up, right = (size[1], size[4]) if by_rows else (size[4], size[1])
@@ -122,7 +122,7 @@ def _hdr_upright(pixels: Pixels, size: re.Match[bytes]) -> Pixels:
 
 
 def _hdr_exposure(lines: list[str]) -> NDArray[np.float32]:
-    """What the pixels were multiplied by, of R, G, B; raises for what is no RGBE."""
+    """Return the factors of R, G and B in the pixels; raises for pixels that are no RGBE."""
     exposure = np.ones(3)
     for name, _, value in (line.partition("=") for line in lines):
         if name == "FORMAT" and value.strip() != "32-bit_rle_rgbe":
@@ -138,7 +138,7 @@ def _hdr_exposure(lines: list[str]) -> NDArray[np.float32]:
 
 
 def _exposure(text: str) -> NDArray[np.float64]:
-    """One number, or three; NaN for what is neither."""
+    """Return one number, or three; NaN for any other text."""
     try:
         numbers = np.array([float(word) for word in text.split()])
     except ValueError:
@@ -158,7 +158,7 @@ def _hdr_pixels(content: bytes, at: int, lines: int, length: int) -> Bytes:
 
 
 def _hdr_line(content: bytes, at: int, length: int) -> tuple[Bytes, int]:
-    """Pixels (length, 4) and where the next ones begin; raises IndexError where the file ends."""
+    """Return pixels, (length, 4), and where the next begin; IndexError where the file ends."""
     mark = content[at : at + 4]
     if not (8 <= length < 1 << 15 and mark[:2] == b"\2\2" and mark[2:3] < b"\x80"):
         row, at = _hdr_line_of_pixels(content, at, length)
@@ -170,7 +170,7 @@ def _hdr_line(content: bytes, at: int, length: int) -> tuple[Bytes, int]:
 
 
 def _hdr_line_of_runs(content: bytes, at: int, length: int) -> tuple[bytes, int]:
-    """All R, then all G, B and E; each a run of a repeated byte, or of different ones."""
+    """Decode all R, then all G, B and E; each as runs of a repeated byte, or of different ones."""
     row = bytearray()
     for end in range(length, 4 * length + 1, length):
         while len(row) < end:
@@ -187,7 +187,7 @@ def _hdr_line_of_runs(content: bytes, at: int, length: int) -> tuple[bytes, int]
 
 
 def _hdr_line_of_pixels(content: bytes, at: int, length: int) -> tuple[bytes, int]:
-    """Pixels one by one; (1, 1, 1, n) repeats the last one n times, the next such 256 n times."""
+    """Decode pixels one by one; (1, 1, 1, n) repeats the last n times, the next one 256 n times."""
     row, digit = bytearray(content[at : at + 4 * length]), 0
     if b"\1\1\1" not in row and len(row) == 4 * length:
         return bytes(row), at + len(row)
@@ -213,11 +213,11 @@ def _hdr_line_of_pixels(content: bytes, at: int, length: int) -> tuple[bytes, in
 
 
 def decode_exr(content: bytes, color: bool) -> Pixels:
-    """One flat image with channels R, G, B or Y, with A or without, in half or float.
+    """Decode one flat image with channels R, G, B or Y, with A or without, in half or float.
 
     Other channels are left out. The data window must be the display window, and the primaries of a
-    colour those of Rec. 709. Raises `RenderError` where there is no room for a copy of the file:
-    OpenEXR reads from memory only since 3.5.
+    colour must be those of Rec. 709. Raises `RenderError` if there is no room for a copy of the
+    file: OpenEXR reads from memory only since 3.5.
     """
     try:
         with TemporaryDirectory(prefix="glrt-") as folder:
@@ -250,7 +250,7 @@ def _opened_exr(path: str, header_only: bool = False) -> Any:
 
     with silenced():
         file = OpenEXR.File(path, separate_channels=True, header_only=header_only)
-    if not file.parts:  # since 3.5, of pixels that cannot be decoded
+    if not file.parts:  # since 3.5, if pixels cannot be decoded
         raise damaged("its pixels cannot be decoded")
     if len(file.parts) > 1:
         raise RefusedImageError(f"has {len(file.parts)} parts. Save one of them")
@@ -286,7 +286,7 @@ def _check_exr_primaries(header: Mapping[str, Any]) -> None:
 
 
 def _exr_channels(channels: list[Any]) -> str:
-    """The channels to read, a letter each; raises for what holds no image."""
+    """Return the channels to read, a letter each; raises if they hold no image."""
     samplings = {channel.name: (channel.xSampling, channel.ySampling) for channel in channels}
     for names in ("RGBA", "RGB", "YA", "Y"):
         if not all(name in samplings for name in names):

@@ -1,7 +1,8 @@
 """Images in files as arrays of linear values: PNG, JPEG, WebP, BMP, TGA, Radiance and OpenEXR.
 
-All but the last two hold codes: colours are decoded by the sRGB curve, data are scaled to 0..1;
-gAMA chunks and colour profiles are ignored, as in glTF. Radiance and OpenEXR hold linear values.
+All but the last two hold codes: colours are decoded by the sRGB curve, and data are scaled to 0..1.
+Their gAMA chunks and colour profiles are ignored, as in glTF. Radiance and OpenEXR hold linear
+values.
 """
 
 import io
@@ -28,27 +29,26 @@ from glrt.scene.images.float_images import (
 
 Codes = NDArray[Any]  # uint8 or uint16, (H, W, C)
 
-_MOST_SCANS = 16  # of a JPEG file with so many pixels: a scan of a few bytes goes over all of them
+_MOST_SCANS = 16  # of a JPEG file with MOST_PIXELS: a scan of a few bytes goes over all pixels
 
 
 def decode_image(content: bytes, where: str, color: bool = True) -> Pixels:
-    """The image in the bytes of a file, (H, W, C) float32, linear, row 0 on top.
+    """Return the image in the bytes of a file, (H, W, C) float32, linear, row 0 on top.
 
     C is 1 for grey, 2 for grey and alpha, 3 for R, G, B and 4 for R, G, B, alpha, as stored. A
-    palette becomes the colours that it stands for, a transparent colour of a PNG becomes alpha.
-    8 and 16 bits are kept whole. Alpha is linear and the colours are what the file says, not
-    multiplied by it (PNG, WebP) or multiplied (OpenEXR). The EXIF orientation is ignored: texture
-    coordinates mean the pixels as stored. Radiance values are divided by the exposures in their
-    header.
+    palette becomes the colours that it stands for, and a transparent colour of a PNG becomes alpha.
+    8 and 16 bits are kept whole. Alpha is linear. Colours are those of the file, not multiplied by
+    alpha (PNG, WebP) or multiplied (OpenEXR). The EXIF orientation is ignored: texture coordinates
+    mean the pixels as stored. Radiance values are divided by the exposures in their header.
 
     `color` says that codes are colours in sRGB, which become linear in Rec. 709 primaries; else
     they are data, code / 255 or code / 65535. Float values are taken as they are; those of colours
     must not be negative.
 
-    The format is told by the content; no name plays a part. `where` begins messages: the scene
-    file, the key and the file. Raises `SceneError` for another format, a damaged file, more than
-    16384 x 16384 pixels, values that are not finite or negative colours, a CMYK image, an
-    animation, Radiance XYZE, or an OpenEXR file that is not one flat image of R, G, B, or Y.
+    The content decides the format; no name plays a part. `where` begins messages: the scene file,
+    the key and the file. Raises `SceneError` for another format, a damaged file, more than 16384 x
+    16384 pixels, values that are not finite or negative colours, a CMYK image, an animation,
+    Radiance XYZE, or an OpenEXR file that is not one flat image of R, G, B, or Y.
     """
     try:
         for begin, decode in _DECODERS.items():
@@ -62,7 +62,7 @@ def decode_image(content: bytes, where: str, color: bool = True) -> Pixels:
 
 
 def decode_srgb(code: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Linear values, 0..1, of sRGB codes, 0..1: IEC 61966-2-1, piecewise."""
+    """Return linear values, 0..1, of sRGB codes, 0..1: IEC 61966-2-1, piecewise."""
     return np.where(code <= 0.04045, code / 12.92, ((code + 0.055) / 1.055) ** 2.4)
 
 
@@ -123,13 +123,13 @@ def _plain(opened: Callable[[], Any], color: bool) -> Pixels:
 
 @contextmanager
 def _reading() -> Iterator[None]:
-    """`reading`, and silence: Pillow warns of metadata that are of no use here."""
+    """Apply `reading`, and silence Pillow's warnings of metadata that are of no use here."""
     from PIL.Image import DecompressionBombError
 
     with reading(), warnings.catch_warnings(action="ignore"):
         try:
             yield
-        except DecompressionBombError:  # for WebP alone, and for fewer pixels than are read here
+        except DecompressionBombError:  # from WebP alone, and for fewer pixels than are read here
             raise RefusedImageError(
                 "has more pixels than Pillow reads of its format. Make it smaller, or convert it "
                 "to PNG"
@@ -154,8 +154,8 @@ def _png_codes(opened: Callable[[], Any]) -> Codes:
         return _with_key(planes, image, {"L;2": 85, "L;4": 17}.get(stored, 1))
 
 
-# How Pillow unpacks pixels of 16 bits into bytes: it has no image for them, and keeps the upper
-# byte. As if they were little-endian, the lower byte takes its place. Grey with alpha has the four
+# Layouts by which Pillow unpacks pixels of 16 bits into bytes: it has no image for them, and keeps
+# the upper byte; read as if little-endian, it keeps the lower one. Grey with alpha has the four
 # bytes of a colour with alpha.
 _PARTS_OF_16_BITS = {
     "RGB;16B": ("RGB;16B", "RGB;16L"),
@@ -176,7 +176,7 @@ def _sixteen_bits(opened: Callable[[], Any], stored: str) -> Codes:
 
 
 def _with_key(codes: Codes, image: Any, scale: int) -> Codes:
-    """With alpha, if one colour is transparent; `scale` leads from its codes to these."""
+    """Add alpha if one colour is transparent; `scale` leads from that colour's codes to these."""
     if "transparency" not in image.info:
         return codes
     key = np.multiply(image.info["transparency"], scale)
@@ -201,7 +201,7 @@ def _linear(codes: Codes, color: bool) -> Pixels:
     return pixels
 
 
-# What a file of each format begins with.
+# How a file of each format begins.
 _DECODERS: dict[bytes, Callable[[bytes, bool], Pixels]] = {
     rb"\x89PNG\r\n\x1a\n": _decode_png,
     rb"\xff\xd8\xff": _decode_jpeg,
@@ -209,5 +209,5 @@ _DECODERS: dict[bytes, Callable[[bytes, bool], Pixels]] = {
     rb"#\?": decode_hdr,
     rb"\x76\x2f\x31\x01": decode_exr,
     rb"BM....\0\0\0\0": _decode_bmp,
-    rb".[\0\1][\1-\3\x09-\x0b]": _decode_tga,  # it has no mark of its own
+    rb".[\0\1][\1-\3\x09-\x0b]": _decode_tga,  # TGA has no mark of its own
 }

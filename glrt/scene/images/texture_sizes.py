@@ -1,4 +1,4 @@
-"""Images that are made smaller, where those of a scene are too large together."""
+"""Make images smaller if the images of a scene are too large together."""
 
 from collections.abc import Sequence
 
@@ -6,12 +6,12 @@ import numpy as np
 
 from glrt.scene.files.named_images import Texels
 
-MOST_TEXELS = 1 << 26  # of all images, 8 bytes each
+MOST_TEXELS = 1 << 26  # texels of all images, 8 bytes each
 Size = tuple[int, int]  # height and width
 
 
 def sizes_of(sizes: Sequence[Size]) -> list[Size]:
-    """The sizes that images get: the largest is halved until there is room for all."""
+    """Return the sizes that images get: the largest is halved until there is room for all."""
     found = list(sizes)
     while sum(height * width for height, width in found) > MOST_TEXELS:
         largest = max(range(len(found)), key=lambda number: found[number][0] * found[number][1])
@@ -21,7 +21,7 @@ def sizes_of(sizes: Sequence[Size]) -> list[Size]:
 
 
 def reduced(texels: Texels, size: Size) -> Texels:
-    """(H, W, 4) of that size, by means of two by two texels."""
+    """Return texels, (H, W, 4), halved to this size by means of two by two texels."""
     while texels.shape[:2] != size:
         height, width = (max(length // 2, 1) for length in texels.shape[:2])
         rows = texels[: 2 * height].reshape(height, -1, *texels.shape[1:])

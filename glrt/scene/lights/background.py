@@ -75,7 +75,7 @@ class Background(Value):
 
     @property
     def is_pictured(self) -> bool:
-        """Whether its radiance is that of an image, of a file or of a clear sky."""
+        """Whether an image gives its radiance, from a file or of a clear sky."""
         return self.image is not None or self.sky is not None
 
     @model_validator(mode="after")

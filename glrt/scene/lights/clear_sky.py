@@ -21,9 +21,9 @@ from glrt.settings import Cost, Editable
 
 Array = NDArray[np.float64]
 
-ROWS = 512  # of the image of the sky; twice as many columns
+ROWS = 512  # rows of the image of the sky, which has twice as many columns
 _SENSITIVITY = 106.856980  # integral of the eye's sensitivity, nm
-_DEGREE = 5  # of the Bezier curve along the sun's elevation
+_DEGREE = 5  # degree of the Bezier curve along the sun's elevation
 
 
 class ClearSky(Value):
@@ -50,18 +50,22 @@ class ClearSky(Value):
         ) -> None: ...
 
     def sun(self, towards: Array) -> Radiance:
-        """Irradiance of the sun in the direction `towards`, `scale` included; black below 0."""
+        """Return the irradiance of a sun at `towards`, times `scale`; black below the horizon."""
         if towards[1] < 0:
             return (0.0, 0.0, 0.0)
         red, green, blue = _sun_irradiance(self.turbidity, _elevation(towards)) * self.scale
         return (float(red), float(green), float(blue))
 
     def radiance(self, towards: Array, directions: Array) -> Array:
-        """Of the sky alone at scale 1, from unit directions (N, 3) at and above the horizon."""
+        """Return the sky's radiance, (N, 3), at scale 1 and without the sun.
+
+        It comes from unit directions, (N, 3), at and above the horizon; `towards`, (3,), is the
+        sun's.
+        """
         return self._radiance(towards, directions[:, 1], directions @ towards)
 
     def _radiance(self, towards: Array, height: Array, cos_gamma: Array) -> Array:
-        """By the sine of the elevation and the cosine of the angle to the sun, broadcast."""
+        """Return radiance by sine of elevation and cosine of the angle to the sun, broadcast."""
         shape, factor = _distribution(self.turbidity, self.ground, _elevation(towards))
         height, cos_gamma = np.clip(height, 0, 1)[..., None], np.clip(cos_gamma, -1, 1)[..., None]
         a, b, c, d, e, f, g, i, h = shape
@@ -77,7 +81,7 @@ class ClearSky(Value):
 def sky_pixels(
     turbidity: float, ground: float, towards: tuple[float, float, float]
 ) -> NDArray[np.float32]:
-    """The sky of all directions at scale 1, as a scene's image has it: (512, 1024, 3)."""
+    """Return the sky of all directions at scale 1, as a scene's image has it: (512, 1024, 3)."""
     sky, sun = ClearSky(turbidity=turbidity, ground=ground), np.array(towards)
     angle = np.pi * (np.arange(ROWS // 2) + 0.5)[:, None] / ROWS  # from the zenith
     azimuth = np.pi * (np.arange(2 * ROWS) + 0.5) / ROWS - np.pi  # from -z towards +x
@@ -104,7 +108,7 @@ def _coefficients() -> dict[str, Array]:
 
 
 def _of_turbidity(table: Array, turbidity: float) -> Array:
-    """Between two of ten turbidities."""
+    """Interpolate a table between two of its ten turbidities."""
     low = min(int(turbidity), 9)
     share = turbidity - low
     found: Array = table[low - 1] * (1 - share) + table[low] * share
@@ -112,7 +116,7 @@ def _of_turbidity(table: Array, turbidity: float) -> Array:
 
 
 def _distribution(turbidity: float, ground: float, elevation: float) -> tuple[Array, Array]:
-    """The nine coefficients of each channel, (9, 3), and the factor of their sum, (3,)."""
+    """Return the nine coefficients of each channel, (9, 3), and the factor of their sum, (3,)."""
     along = (elevation / (math.pi / 2)) ** (1 / 3)
     powers = [along**n * (1 - along) ** (_DEGREE - n) for n in range(_DEGREE + 1)]
     bezier = np.array([math.comb(_DEGREE, n) * power for n, power in enumerate(powers)])
@@ -128,7 +132,10 @@ def _distribution(turbidity: float, ground: float, elevation: float) -> tuple[Ar
 
 
 def _sun_irradiance(turbidity: float, elevation: float) -> Array:
-    """(3,): a cubic in each of 45 pieces, whose ends are cubes of equal steps."""
+    """Return the irradiance of the sun, (3,): a cubic in each of 45 pieces of the elevation.
+
+    The pieces end at cubes of equal steps.
+    """
     pieces = _of_turbidity(_coefficients()["sun"], turbidity)
     count = len(pieces)
     piece = min(int((elevation / (math.pi / 2)) ** (1 / 3) * count), count - 1)

@@ -14,7 +14,7 @@ HalfAngle = Annotated[float, Field(ge=0, le=180), Editable(unit="degrees", slide
 
 
 class Cone(Value):
-    """The directions that a lamp lights, the same at each of its points: it makes a spot of it.
+    """The directions that a lamp lights, the same at each of its points; it makes a spotlight.
 
     With v = 1 - cos of the angle to the axis, the share of the emission is s^2 (3 - 2 s), where s
     falls evenly in v from 1 at `inner` to 0 at `outer`.
@@ -40,17 +40,17 @@ class Cone(Value):
 
     @property
     def unit_axis(self) -> Array:
-        """(3,)."""
+        """The axis with length 1, (3,)."""
         axis: Array = np.array(self.axis) / math.hypot(*self.axis)
         return axis
 
     @property
     def versines(self) -> tuple[float, float]:
-        """1 - cos of the inner and of the outer half angle, with the digits of small angles."""
+        """1 - cos of the inner and of the outer half angle, with all digits for small angles."""
         return _versine(self.inner), _versine(self.outer)
 
     def shares(self, directions: Array) -> Array:
-        """(n,): the share of the emission in each direction, (n, 3) of length 1."""
+        """Return the share of the emission in each direction, (n,), for unit directions, (n, 3)."""
         inner, outer = self.versines
         versines = np.square(directions - self.unit_axis).sum(axis=1) / 2
         if inner == outer:

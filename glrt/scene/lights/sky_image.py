@@ -1,4 +1,4 @@
-"""The image of all directions that a scene has: from a file, or of a clear sky."""
+"""The image of the sky in all directions, from a file or of a clear sky."""
 
 from typing import NamedTuple
 
@@ -9,23 +9,23 @@ from glrt.scene.lights.sun import Sun
 
 
 class ModelSky(NamedTuple):
-    """What the pixels of a clear sky follow from."""
+    """The values that determine the pixels of a clear sky."""
 
     turbidity: float
     ground: float
-    towards: tuple[float, float, float]  # the sun
+    towards: tuple[float, float, float]  # unit vector to the sun
 
 
 class SkyPicture(NamedTuple):
-    """Pictures of equal sources have equal pixels."""
+    """An image of the sky; pictures with equal sources have equal pixels."""
 
     source: ImageFile | ModelSky
-    name: str  # in messages
+    name: str  # its name in messages
     pixels: Pixels | None  # (H, W, 3), linear, row 0 on top; None before the file is read
 
 
 def sky_picture(background: Background, sun: Sun | None) -> SkyPicture | None:
-    """None for colours and gradients."""
+    """Return the image of a background; None for colours and gradients."""
     if image := background.image:
         return SkyPicture(image, image.file, image.pixels)
     if background.sky is None or sun is None:

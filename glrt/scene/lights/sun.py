@@ -12,9 +12,9 @@ from glrt.settings import Cost, Editable
 
 
 class Sun(Value):
-    """A disc at infinity, as bright in all its points; its light group is `sun`.
+    """A disc at infinity, equally bright at all its points; its light group is `sun`.
 
-    Where it stands is given by `elevation` and `azimuth`, or by `direction`.
+    Its place is given by `elevation` and `azimuth`, or by `direction`.
     """
 
     elevation: Annotated[
@@ -57,7 +57,7 @@ class Sun(Value):
 
     @property
     def towards(self) -> NDArray[np.float64]:
-        """The unit vector towards its middle, (3,)."""
+        """The unit vector to the middle of the sun, (3,)."""
         if self.direction is not None:
             given = np.array(self.direction, np.float64)
             unit: NDArray[np.float64] = given / np.linalg.norm(given)
@@ -68,11 +68,11 @@ class Sun(Value):
 
     @property
     def versine(self) -> float:
-        """1 - cos of half its angle."""
+        """1 - cos of half the angle of the disc."""
         return 2 * math.sin(math.radians(self.angle) / 4) ** 2
 
     def radiance(self, irradiance: Radiance) -> Radiance:
-        """Of its points: the irradiance over pi sin^2 of half its angle."""
+        """Return the radiance of its points: the irradiance over pi sin^2 of half its angle."""
         area = math.pi * math.sin(math.radians(self.angle) / 2) ** 2
         red, green, blue = irradiance
         return (red / area, green / area, blue / area)

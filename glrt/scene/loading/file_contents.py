@@ -1,4 +1,4 @@
-"""What the files hold that a scene names."""
+"""Read the contents of files that a scene names."""
 
 import numpy as np
 
@@ -13,19 +13,19 @@ from glrt.scene.model_files.gltf.images import image_content
 from glrt.scene.model_files.mesh_formats import decode_mesh
 from glrt.scene.values import LARGEST
 
-BRIGHTEST = 65_504.0  # of a texture, the largest half float
+BRIGHTEST = 65_504.0  # of a texture: the largest half float
 NamedContent = ImageFile | TextureImage | MeshFile
 
 
 def is_read(named: NamedContent) -> bool:
-    """Whether the content of a file is there."""
+    """Return whether the content of a file is there."""
     if isinstance(named, ImageFile):
         return named.pixels is not None
     return (named.texels if isinstance(named, TextureImage) else named.triangles) is not None
 
 
 def with_content(named: NamedContent, reader: AssetReader, where: str) -> NamedContent:
-    """A file with its content; raises `SceneError`, which begins with `where`."""
+    """Return a file with its content; raises `SceneError`, which begins with `where`."""
     asset = reader.read(named.path, where)
     if isinstance(named, MeshFile):
         beside = Beside(asset, reader, where)
@@ -42,12 +42,12 @@ class Beside:
     """Reads files by their paths from another one, and keeps their SHA-256 by path."""
 
     def __init__(self, asset: Asset, reader: AssetReader, where: str) -> None:
-        """Beside an asset."""
+        """Read files by their paths from an asset."""
         self._asset, self._reader, self._where = asset, reader, where
         self.hashes: dict[str, str] = {}
 
     def __call__(self, path: str) -> bytes:
-        """The content; raises `SceneError`."""
+        """Return the content of the file at a path; raises `SceneError`."""
         spelled = self._reader.spelled(path, folder_of(self._asset.path))
         found = self._reader.read(spelled, f"{self._where}: {self._asset.path}")
         self.hashes[found.path] = found.sha256
@@ -75,14 +75,14 @@ def _check_brightness(pixels: Pixels, most: float, where: str) -> None:
 
 
 def _colors(pixels: Pixels) -> Pixels:
-    """(H, W, 3) of grey, grey and alpha, colours, or colours and alpha, which is left out."""
+    """Return colours, (H, W, 3), of grey or colour pixels; their alpha is left out."""
     channels = pixels.shape[2]
     planes = pixels[..., :1].repeat(3, axis=2) if channels < 3 else pixels[..., :3]
     return np.ascontiguousarray(planes, np.float32)
 
 
 def _texels(pixels: Pixels) -> Texels:
-    """(H, W, 4): colours, and alpha or 1."""
+    """Return texels, (H, W, 4): colours, and alpha or 1."""
     found = np.ones((*pixels.shape[:2], 4), np.float16)
     channels = pixels.shape[2]
     found[..., :3] = pixels[..., :1] if channels < 3 else pixels[..., :3]

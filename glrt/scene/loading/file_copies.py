@@ -1,4 +1,4 @@
-"""Copies of the files that a scene names, beside a scene file elsewhere."""
+"""Copy the files that a scene names next to a scene file elsewhere."""
 
 import hashlib
 from collections.abc import Iterator
@@ -26,8 +26,9 @@ class _Source(NamedTuple):
 def copy_files(scene: SceneFields, folder: Path) -> None:
     """Put copies of the files that a scene names where a scene file in `folder` finds them.
 
-    A file that is there already stays. Raises `UsageError` if it has other content, or if the one
-    to copy is not as it was read; `RenderError` if a copy cannot be written.
+    A file that is there already stays, and files above the folder are not copied. Raises
+    `UsageError` if the file there has other content, or if the one to copy is not as it was read;
+    `RenderError` if a copy cannot be written.
     """
     for source in dict.fromkeys(_sources(scene)):
         is_beside = ".." not in PurePosixPath(source.path).parts
@@ -55,7 +56,10 @@ def _sources(scene: SceneFields) -> Iterator[_Source]:
 
 
 def _next_to(named: NamedContent, path: str) -> Path | None:
-    """Where a file was read that another one names, both by paths from the same folder."""
+    """Return where a file was read that another one names; None if that is unknown.
+
+    `path` and the path of `named` start from the same folder.
+    """
     end = name_of(named.path)
     if named.origin is None or not named.origin.as_posix().endswith(end):
         return None
@@ -63,7 +67,7 @@ def _next_to(named: NamedContent, path: str) -> Path | None:
 
 
 def _unchanged(source: _Source) -> bytes:
-    """The content of a file as it was read."""
+    """Return the content of a file; UsageError if it has changed since it was read."""
     assert source.origin is not None
     content = source.origin.read_bytes()
     if hashlib.sha256(content).hexdigest() != source.sha256:

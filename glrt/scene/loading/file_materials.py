@@ -1,6 +1,6 @@
-"""The materials that OBJ and glTF files bring along, with their images.
+"""Read the materials of OBJ and glTF files, with their images.
 
-Looks that cannot be had are left out, and the file of the mesh knows which.
+Properties that scenes do not have are left out, and the file of the mesh lists them.
 """
 
 from glrt.core.errors import SceneError
@@ -28,14 +28,14 @@ from glrt.scene.schema.validation import validated
 from glrt.scene.shapes.mesh import Mesh
 
 REMEDY = "give the object a `material`"
-Found = tuple[MeshFile, dict[str, Material]]  # a file that knows what was left out, and materials
+Found = tuple[MeshFile, dict[str, Material]]  # a file that lists what was left out, and materials
 
 
 def of_mtl(shape: Mesh, reader: AssetReader, where: str, rest: Material | None) -> Found:
     """Read the materials of an OBJ file from its MTL files; the first of a name counts.
 
-    `rest` is the material of what has none there. Without it `SceneError` is raised for an MTL
-    file that cannot be read; materials that the file uses may be missing then.
+    `rest` is the material of triangles that have none there. Without `rest`, `SceneError` is raised
+    for an MTL file that cannot be read, and the result may lack materials that the file uses.
     """
     asset = reader.read(shape.file.file, where)
     paths = libraries(asset.content)
@@ -93,7 +93,7 @@ def _of_entry(entry: Entry, folder: str, images: "_Images") -> tuple[Material, l
 
 
 def of_gltf(shape: Mesh, reader: AssetReader, where: str) -> Found:
-    """The materials that the triangles of a file have; no glass that would enclose nothing."""
+    """Return the materials that the triangles of a file have; open glass becomes a thin pane."""
     asset = reader.read(shape.file.file, where)
     images = _Images(reader, shape, where)
     own, unread = dict[str, Material](), list[str]()
@@ -138,13 +138,13 @@ class _Images:
         self._read: dict[TextureImage, TextureImage | None] = {}
 
     def lost(self, material: Material) -> list[str]:
-        """The keys of a material whose images cannot be read, or could not lie anywhere."""
+        """Return the keys whose images cannot be read, or have no texture coordinates to lie by."""
         textures = material.textures if isinstance(material, Opaque) else {}
         images = {key: texture.image for key, texture in textures.items() if texture.image}
         return [key for key, image in images.items() if not self._is_had(image)]
 
     def with_pixels(self, material: Material) -> Material:
-        """The material with its images as they were read."""
+        """Return the material with its images as they were read."""
         had = {image: found for image, found in self._read.items() if found}
         return material.with_images(had) if isinstance(material, Opaque) else material
 

@@ -1,4 +1,4 @@
-"""Meshes without a material: one for each material that their OBJ or glTF file has of its own."""
+"""Divide meshes without a material: one mesh for each material that their OBJ or glTF file has."""
 
 from dataclasses import dataclass, field
 from pathlib import PurePosixPath
@@ -20,19 +20,20 @@ SceneType = TypeVar("SceneType", bound=SceneFields)
 
 
 def lacks_material(shape: Any) -> bool:
-    """Whether an object is to have the materials of its file."""
+    """Return whether an object is to have the materials of its file."""
     return isinstance(shape, Mesh) and not shape.material
 
 
 def with_own_materials(
     scene: SceneType, reader: AssetReader, source: str, rest: Material | None = None
 ) -> SceneType:
-    """The scene with a mesh for each material of files whose objects have none; else the same one.
+    """Return the scene with a mesh for each material of files whose objects have none.
 
-    The first part of an object stands in its place and the others behind all objects, so that no
-    object gets another number. Their materials are named `FILE:NAME`, unless the scene has one of
-    that name. Raises `SceneError`, as `source: key: ...`, for a file without materials, and, unless
-    there is a material `rest` for what lacks one, for MTL files and materials that are missing.
+    If all objects have a material, it is the same scene. The first part of an object stands in its
+    place and the others behind all objects, so that no object gets another number. Their materials
+    are named `FILE:NAME`, unless the scene has one of that name. A file without materials raises
+    `SceneError`, as `source: key: ...`. So do MTL files and materials that are missing, unless
+    `rest` is a material for parts that lack one.
     """
     division = _Division(reader, dict(scene.materials), rest)
     objects: list[Any] = list(scene.objects)
@@ -63,7 +64,7 @@ class _Division:
     files: dict[MeshFile, tuple[MeshFile, dict[str, Material]]] = field(default_factory=dict)
 
     def parts(self, shape: Mesh, where: str) -> list[Mesh]:
-        """A mesh for each material, in the order in which the file uses them."""
+        """Return a mesh for each material, in the order in which the file uses them."""
         names = _names(shape, where, self.rest is not None)
         if shape.file not in self.files:
             self.files[shape.file] = (
@@ -88,7 +89,7 @@ def _is_gltf(shape: Mesh) -> bool:
 
 
 def _names(shape: Mesh, where: str, may_lack: bool) -> list[str]:
-    """The materials of an object that has none in the scene; some triangles may lack one."""
+    """Return the materials of a mesh's file; if `may_lack`, some triangles may have none."""
     file, mesh = shape.file.file, shape.triangles_of_file
     if PurePosixPath(file).suffix.lower() not in (".obj", *GLTF):
         raise SceneError(
@@ -111,7 +112,7 @@ def _names(shape: Mesh, where: str, may_lack: bool) -> list[str]:
 
 
 def part_problem(shape: Mesh) -> str:
-    """What is wrong with the part that an object is of; empty if nothing is."""
+    """Return what is wrong with the part that an object is of; empty if nothing is."""
     names = shape.triangles_of_file.parts if shape.part is not None else {}
     if shape.part is None or shape.part in names:
         return ""

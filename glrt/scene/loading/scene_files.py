@@ -1,4 +1,4 @@
-"""The files that a scene names, read into it."""
+"""Read the files that a scene names into the scene."""
 
 from collections.abc import Iterator, Mapping
 from typing import Any, TypeVar
@@ -23,12 +23,12 @@ Files = Mapping[NamedContent, NamedContent]
 
 
 def files_of(scene: SceneFields) -> list[str]:
-    """The paths of the files that a scene names, each once."""
+    """Return the paths of the files that a scene names, each once."""
     return list(dict.fromkeys(named.path for _, named in named_files(scene)))
 
 
 def hashes_of(scene: SceneFields) -> dict[str, str]:
-    """What recipes store: SHA-256 in hex by path, of the files that were read."""
+    """Return SHA-256 in hex by path, of the files that were read, as recipes store them."""
     found = dict[str, str]()
     for _, named in named_files(scene):
         if named.sha256:
@@ -37,7 +37,7 @@ def hashes_of(scene: SceneFields) -> dict[str, str]:
 
 
 def sources_of(scene: SceneFields) -> dict[str, str]:
-    """The same with the MTL files that materials were taken from: those that recipes leave out."""
+    """Return `hashes_of`, and the MTL files that gave materials, which recipes leave out."""
     files = [shape.file for _, shape in _meshes(scene)]
     return hashes_of(scene) | {path: sha for file in files for path, sha in file.libraries.items()}
 
@@ -45,10 +45,10 @@ def sources_of(scene: SceneFields) -> dict[str, str]:
 def with_files(
     scene: SceneType, folder: AssetFolder, source: str, rest: Material | None = None
 ) -> SceneType:
-    """The scene with the content of its files; the same one if it names none, or has all.
+    """Return the scene with the content of its files; the same one if it names none, or has all.
 
-    `rest` is the material of what has none in an OBJ file, which is refused without it. Raises
-    `SceneError`, as `source: key: ...`, for a file that is missing, too large, outside of
+    `rest` is the material of triangles that have none in an OBJ file, which is refused without it.
+    Raises `SceneError`, as `source: key: ...`, for a file that is missing, too large, outside of
     the folder, no image or mesh, or not as expected.
     """
     reader = AssetReader(folder)
@@ -69,7 +69,7 @@ def _read(scene: SceneType, reader: AssetReader, source: str) -> SceneType:
 
 
 def with_hashes(scene: SceneType, hashes: Mapping[str, str]) -> SceneType:
-    """The scene of a recipe, which knows its files by their hashes alone."""
+    """Return the scene of a recipe, which knows its files by their hashes alone."""
     return _with(
         scene,
         {
@@ -81,12 +81,12 @@ def with_hashes(scene: SceneType, hashes: Mapping[str, str]) -> SceneType:
 
 
 def with_files_of(scene: SceneType, other: SceneFields) -> SceneType:
-    """The scene with the content of those of its files that another scene has read."""
+    """Return the scene with the content of the files that another scene has read."""
     return _with(scene, {named: named for _, named in named_files(other)})
 
 
 def with_stand_ins(scene: SceneType) -> SceneType:
-    """The scene with a white pixel for each image that was not read: its kernel is the same."""
+    """Return the scene with a white pixel for each image that was not read: its kernel is equal."""
     found = dict[NamedContent, NamedContent]()
     for _, named in named_files(scene):
         if isinstance(named, TextureImage) and not is_read(named):
@@ -109,7 +109,7 @@ def check_loaded(scene: SceneFields) -> None:
 
 
 def mesh_problems(scene: SceneFields) -> Iterator[str]:
-    """What does not fit of meshes that were read, as `key: ...`."""
+    """Yield what does not fit in meshes that were read, as `key: ...`."""
     for index, shape in _meshes(scene):
         key = f"objects[{index}].file: {shape.file.file}"
         if problem := part_problem(shape):
@@ -130,7 +130,7 @@ def mesh_problems(scene: SceneFields) -> Iterator[str]:
 
 
 def _without_coordinates(scene: SceneFields) -> Iterator[str]:
-    """Meshes whose material has an image that could not lie anywhere on them."""
+    """Yield meshes with a texture but without texture coordinates, as `key: ...`."""
     for index, shape in enumerate(scene.objects):
         material = scene.materials.get(shape.material)
         if not isinstance(material, Opaque) or not material.textures:
@@ -157,7 +157,7 @@ def _too_many(scene: SceneFields) -> Iterator[str]:
 
 
 def _with(scene: SceneType, known: Files) -> SceneType:
-    """The scene with other values in place of those that are equal to a key."""
+    """Return the scene with values of `known` in place of the files that equal their keys."""
     image, objects = scene.background.image, scene.objects
     images = {key: value for key, value in known.items() if isinstance(value, TextureImage)}
     changes: dict[str, Any] = {}
@@ -180,7 +180,7 @@ def _with(scene: SceneType, known: Files) -> SceneType:
 
 
 def named_files(scene: SceneFields) -> Iterator[tuple[str, NamedContent]]:
-    """The files that a scene names, with the keys that name them."""
+    """Yield the files that a scene names, with the keys that name them."""
     if scene.background.image is not None:
         yield "background.image", scene.background.image
     for index, shape in _meshes(scene):

@@ -1,4 +1,4 @@
-"""What all materials have, and those that light does not pass."""
+"""Base classes of materials, and the alpha of GGX."""
 
 from collections.abc import Callable, Mapping
 from typing import Annotated, Any, ClassVar, Self
@@ -18,11 +18,11 @@ RADIANCE = "radiance at intensity 1, 0 or more each, from both sides of the surf
 
 
 class Surface(Tagged):
-    """What every material has."""
+    """The base of all materials."""
 
     type: str = Field(description="the kind of material")
 
-    is_transparent: ClassVar[bool]  # nothing is seen of it but by following light through it
+    is_transparent: ClassVar[bool]  # whether it is seen only by light followed through it
 
     @property
     def emits(self) -> bool:
@@ -36,10 +36,10 @@ def _schema(schema: dict[str, Any]) -> None:
 
 
 class Opaque(Surface):
-    """What every material has that light does not pass.
+    """The base of materials that are seen without following light through them.
 
-    A key `x` that may be a texture is the factor of a texture, which is `x_map`: both are one key
-    of a scene file.
+    If a key `x` may be a texture, field `x` is its factor, and field `x_map` the texture. A scene
+    file has one key for both.
     """
 
     model_config = ConfigDict(json_schema_extra=_schema)
@@ -59,7 +59,7 @@ class Opaque(Surface):
     )
 
     is_transparent = False
-    textured: ClassVar[Mapping[str, bool]] = {}  # keys that may be; whether they are colors
+    textured: ClassVar[Mapping[str, bool]] = {}  # possible textures; whether of colors
 
     @model_validator(mode="before")
     @classmethod
@@ -77,12 +77,12 @@ class Opaque(Surface):
 
     @property
     def textures(self) -> dict[str, Texture]:
-        """Those that it has, by key."""
+        """Textures of the material, by key."""
         found = {name: value for name, value in self if isinstance(value, Texture)}
         return {name.removesuffix("_map"): texture for name, texture in found.items()}
 
     def with_images(self, known: Mapping[Any, TextureImage]) -> Self:
-        """The same with other images in place of those that are keys."""
+        """Return the material with other images in place of its images that are keys of `known`."""
         update = {
             name: texture.model_copy(update={"image": known[texture.image]})
             for name, texture in self
@@ -92,11 +92,11 @@ class Opaque(Surface):
 
     @property
     def emits(self) -> bool:
-        """Whether some of its emission is not black."""
+        """Whether its emission is not black."""
         return any(self.emission)
 
 
 def alpha_of(roughness: float) -> float:
-    """The alpha of GGX; 0 for what a float32 cannot tell from a mirror."""
+    """Return the alpha of GGX; 0 if float32 cannot distinguish it from a mirror."""
     alpha = roughness**2
     return alpha if alpha >= SMOOTHEST else 0.0

@@ -14,14 +14,14 @@ Channels = tuple[float, float, float]
 
 
 class Conductor(NamedTuple):
-    """What light meets at the surface of a metal, from air."""
+    """The complex index of refraction of a metal against air, in each channel."""
 
     ior: Channels  # n
-    k: Channels  # extinction
+    k: Channels  # extinction coefficient
 
     @property
     def head_on(self) -> Color:
-        """Reflectance at normal incidence."""
+        """Reflectance at normal incidence, in each channel."""
         red, green, blue = (
             ((n - 1) ** 2 + k**2) / ((n + 1) ** 2 + k**2)
             for n, k in zip(self.ior, self.k, strict=True)

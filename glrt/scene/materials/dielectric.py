@@ -9,7 +9,7 @@ from glrt.scene.materials.base import SMOOTHEST, Surface
 from glrt.scene.values import BLACK, Color, Fraction, Length, Number, Triple
 from glrt.settings import Cost, Editable
 
-# Share of light that is left of a channel which attenuation_color says is black.
+# Share of light that is left of a channel that is black in attenuation_color.
 LEAST_LEFT = 1e-12
 
 
@@ -81,7 +81,7 @@ class Dielectric(Surface):
 
     @property
     def alpha(self) -> float:
-        """The alpha of GGX; 0 where it is smooth, or as good as that for a float32.
+        """The alpha of GGX; 0 if it is smooth, or if float32 cannot distinguish it from smooth.
 
         Refraction spreads light over an angle of about alpha times (ior - 1).
         """
@@ -90,12 +90,12 @@ class Dielectric(Surface):
 
     @property
     def has_details(self) -> bool:
-        """Whether it is more than clear and smooth."""
+        """Whether it is rough, tinted, or has a priority."""
         return self.alpha > 0 or any(self.absorption) or self.priority is not None
 
     @property
     def absorption(self) -> Color:
-        """Share of light that is absorbed in a short length, over that length, in each channel."""
+        """Absorption coefficient of each channel, per scene unit."""
         if self.attenuation_color is None or self.attenuation_distance is None:
             return BLACK
         red, green, blue = (

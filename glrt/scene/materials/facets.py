@@ -1,7 +1,7 @@
-"""What facets of rough glass lose to each other: their directional albedo, by quadrature.
+"""Light that facets of rough glass lose to each other: their directional albedo, by quadrature.
 
-Facets scatter light once; what then meets another facet is lost. The kernel sends it back
-(shaders_glsl/bsdfs/rough_dielectric.glsl), and needs to know how much that is.
+The model scatters light once, and loses light that then meets another facet. The kernel sends it
+back (shaders_glsl/bsdfs/rough_dielectric.glsl), and needs to know how much that is.
 """
 
 from functools import lru_cache
@@ -11,22 +11,22 @@ import numpy as np
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
 
-STEPS = 64  # of the root of the cosine, between albedos: ALBEDO_STEPS of the kernel
-LEAST_LOSS = 1e-4  # of even light: less is left lost
-_POINTS, _TURN = 4181, 2584  # of a lattice by neighbours in Fibonacci's sequence
+STEPS = 64  # of the root of the cosine, between albedos: ALBEDO_STEPS in the kernel
+LEAST_LOSS = 1e-4  # share of even light: smaller losses are ignored
+_POINTS, _TURN = 4181, 2584  # points and steps of a lattice by neighbours in Fibonacci's sequence
 
 
 class FacetLoss(NamedTuple):
-    """Of light from outside, and from inside."""
+    """Losses of light from outside, and from inside."""
 
     albedos: tuple[Array, Array]  # at STEPS + 1 even steps of the root of the cosine
     means: tuple[float, float]  # share of even light that is lost
-    crossing: tuple[float, float]  # of what is lost, the share that goes to the other side
+    crossing: tuple[float, float]  # share of the lost light that goes to the other side
 
 
 @lru_cache(maxsize=64)
 def facet_loss(alpha: float, ior: float) -> FacetLoss | None:
-    """Of GGX facets between air and glass; None where they lose next to nothing."""
+    """Return the losses of GGX facets between air and glass; None below LEAST_LOSS."""
     albedos = _albedo(alpha, 1 / ior), _albedo(alpha, ior)
     means = mean_loss(albedos[0]), mean_loss(albedos[1])
     if max(means) < LEAST_LOSS:
@@ -35,25 +35,27 @@ def facet_loss(alpha: float, ior: float) -> FacetLoss | None:
 
 
 def _crossing(ior: float, outer: float, inner: float) -> tuple[float, float]:
-    """As even light divides at smooth glass, less on the side that loses more: so f is reciprocal.
+    """Return the share of lost light that crosses to the other side, from outside and from inside.
 
-    Reciprocal is what n^2 `crossing` mean loss is alike on both sides for. That is so of the
-    shares of even light that cross, if both sides lose the same.
+    Lost light divides as even light does at smooth glass, less on the side that loses more, so that
+    the BSDF is reciprocal: n^2 times `crossing` times mean loss must be equal on both sides. The
+    shares of even light that cross fulfil this if both sides lose the same.
     """
     even = 1 - _even_reflectance(1 / ior)
     return even * min(1, inner / outer), even / ior**2 * min(1, outer / inner)
 
 
 def _even_reflectance(eta: float) -> float:
-    """Fresnel reflectance of light that is as bright from everywhere, by the midpoint rule."""
+    """Return the Fresnel reflectance of light that is equally bright everywhere (midpoint rule)."""
     cosine = np.sqrt((np.arange(100_000) + 0.5) / 100_000)
     return float(_fresnel(cosine, eta).mean())
 
 
 def mean_loss(albedo: Array) -> float:
-    """The integral of 2 (1 - albedo) c over the cosine c, 4 (1 - albedo) s^3 over its root s.
+    """Return the integral of 2 (1 - albedo) c over the cosine c, the loss of even light.
 
-    The albedo is linear in s between its values, as in the kernel.
+    In the root s of the cosine, it is the integral of 4 (1 - albedo) s^3. The albedo is linear in s
+    between its values, as in the kernel.
     """
     root = np.linspace(0, 1, STEPS + 1)
     low, high = root[:-1], root[1:]
@@ -64,7 +66,10 @@ def mean_loss(albedo: Array) -> float:
 
 
 def _albedo(alpha: float, eta: float) -> Array:
-    """At even steps of the root of the cosine: the mean weight of samples by visible normals."""
+    """Return the albedo at even steps of the root of the cosine, (STEPS + 1,).
+
+    It is the mean weight of samples by visible normals.
+    """
     cosine = np.maximum(np.linspace(0, 1, STEPS + 1) ** 2, 1e-9)[:, None]
     wo = np.stack([np.sqrt(1 - cosine**2), 0 * cosine, cosine], axis=-1)
     normal = visible_normals(alpha, wo)
@@ -81,9 +86,10 @@ def _albedo(alpha: float, eta: float) -> Array:
 
 
 def visible_normals(alpha: float, wo: Array) -> Array:
-    """Of wo, (n, 1, 3), whose y is 0, (n, _POINTS, 3): the half of them with y above 0.
+    """Return normals visible from wo, (n, 1, 3), whose y is 0: the half with y above 0.
 
-    Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", 2023.
+    They are (n, _POINTS, 3). Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps",
+    2023.
     """
     points = np.arange(_POINTS)
     u = (points * _TURN % _POINTS + 0.5).reshape(1, -1, 1) / _POINTS / 2
@@ -98,7 +104,7 @@ def visible_normals(alpha: float, wo: Array) -> Array:
 
 
 def weight(alpha: float, cos_o: Array, cos_i: Array) -> Array:
-    """G2 / G1(wo), with G2 = 1 / (1 + L(wo) + L(wi))."""
+    """Return G2 / G1(wo), with G2 = 1 / (1 + L(wo) + L(wi))."""
     mask_o, mask_i = (
         np.sqrt(1 + alpha**2 * (1 - c**2) / np.maximum(c, 1e-300) ** 2) for c in (cos_o, cos_i)
     )
@@ -106,7 +112,7 @@ def weight(alpha: float, cos_o: Array, cos_i: Array) -> Array:
 
 
 def _fresnel(cosine: Array, eta: float) -> Array:
-    """Of unpolarised light; `eta`: index of refraction here over there."""
+    """Return the reflectance of unpolarised light; `eta`: index of refraction here over there."""
     cos_t = np.sqrt(np.maximum(1 - eta**2 * (1 - cosine**2), 0))
     rs = (eta * cosine - cos_t) / (eta * cosine + cos_t)
     rp = (cosine - eta * cos_t) / (cosine + eta * cos_t)

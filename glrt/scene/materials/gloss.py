@@ -1,6 +1,6 @@
-"""What the facets of a principled surface reflect, by quadrature.
+"""Light that the facets of a principled surface reflect, by quadrature.
 
-The kernel looks it up: shaders_glsl/bsdfs/principled.glsl.
+shaders_glsl/bsdfs/principled.glsl looks it up.
 """
 
 from functools import lru_cache
@@ -16,8 +16,8 @@ Array = np.ndarray[Any, np.dtype[np.float64]]
 class FacetShares(NamedTuple):
     """The directional albedo of GGX facets is f0 `head_on` + f90 `grazing`: Schlick's reflectance.
 
-    At STEPS + 1 even steps of the root of the cosine, and of light that is as bright from
-    everywhere.
+    The arrays hold STEPS + 1 even steps of the root of the cosine, and the means hold for light
+    that is equally bright from everywhere.
     """
 
     head_on: Array
@@ -27,19 +27,19 @@ class FacetShares(NamedTuple):
 
     @classmethod
     def of(cls, head_on: Array, grazing: Array) -> "FacetShares":
-        """Of the two arrays."""
+        """Return the shares of these two arrays, with their means."""
         return cls(head_on, grazing, 1 - mean_loss(head_on), 1 - mean_loss(grazing))
 
     @property
     def kept(self) -> float:
-        """Share of even light that white facets do not lose; 1 where they lose next to nothing."""
+        """Share of even light that white facets keep; 1 if they lose less than LEAST_LOSS."""
         kept = self.mean_head_on + self.mean_grazing
         return kept if kept < 1 - LEAST_LOSS else 1.0
 
 
 @lru_cache(maxsize=128)
 def facet_shares(alpha: float) -> FacetShares:
-    """Of facets that scatter light once."""
+    """Return the shares of facets that scatter light once."""
     root = np.linspace(0, 1, STEPS + 1)
     grazing = (1 - root**2) ** 5
     head_on = 1 - grazing
@@ -48,14 +48,14 @@ def facet_shares(alpha: float) -> FacetShares:
     return FacetShares.of(head_on, grazing)
 
 
-ROUGHNESS_STEPS = 255  # of roughness, where it is an image: shaders_glsl/textures/mapped.glsl
+ROUGHNESS_STEPS = 255  # of a textured roughness: shaders_glsl/textures/mapped.glsl
 _KNOTS = (*range(32), *range(32, 64, 4), *range(64, 256, 8), 255)  # steps that are integrated
 
 
 def shares_by_step() -> dict[str, Array]:
-    """`head_on` and `grazing` at each step of roughness, (256, STEPS + 1); linear between knots.
+    """Return `head_on` and `grazing` at each step of roughness, (256, STEPS + 1) each.
 
-    They differ from the integrals by 0.001 at most.
+    They are linear between knots, and differ from the integrals by 0.001 at most.
     """
     steps = np.arange(ROUGHNESS_STEPS + 1)
     knots = [facet_shares((knot / ROUGHNESS_STEPS) ** 2) for knot in _KNOTS]
@@ -68,7 +68,7 @@ def shares_by_step() -> dict[str, Array]:
 
 
 def _rough(alpha: float, cosine: Array) -> tuple[Array, Array]:
-    """The mean weights of samples by visible normals."""
+    """Return `head_on` and `grazing` as the mean weights of samples by visible normals."""
     cosine = cosine[:, None]
     wo = np.stack([np.sqrt(1 - cosine**2), 0 * cosine, cosine], axis=-1)
     normal = visible_normals(alpha, wo)

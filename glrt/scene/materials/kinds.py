@@ -1,7 +1,7 @@
 """Every type of material of a surface.
 
 Each is a frozen model in a file of its own. The kernel's part of a type is in shaders_glsl/bsdfs/
-and glrt/packing/materials.py. docs/extending.md says how a type is added.
+and glrt/packing/materials.py. docs/extending.md explains how to add a type.
 """
 
 from typing import Annotated, Any, get_args
@@ -25,7 +25,7 @@ TYPES: dict[str, Any] = {  # the model of each type
 
 
 def glass_of(material: Surface | None) -> Dielectric | None:
-    """The glass that a material is, or is in part; None where light does not pass it."""
+    """Return the glass that a material is, or partly is; None if light does not pass it."""
     if isinstance(material, Principled):
         return material.glass
     return material if isinstance(material, Dielectric) else None

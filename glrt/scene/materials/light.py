@@ -30,5 +30,5 @@ class Light(Opaque):
 
     @property
     def emits(self) -> bool:
-        """It stays a lamp where its emission is black."""
+        """True: it stays a lamp even if its emission is black."""
         return True

@@ -19,9 +19,9 @@ Extinctions = tuple[_Extinction, _Extinction, _Extinction]
 
 
 class Metal(Opaque):
-    """Metal, smooth or rough (GGX), of a color, or with the reflectance of a measured metal.
+    """Metal, smooth or rough (GGX), with a color or with the reflectance of a measured metal.
 
-    Exactly one of `color`, `preset`, and `ior` with `k` says what it reflects.
+    Exactly one of `color`, `preset`, and `ior` with `k` gives its reflectance.
     """
 
     type: Literal["metal"] = Field("metal", description="the kind of material")
@@ -69,7 +69,7 @@ class Metal(Opaque):
 
     @property
     def conductor(self) -> Conductor | None:
-        """Its complex index of refraction; None for one of a color."""
+        """Complex index of refraction; None for a metal given by a color."""
         if self.preset is not None:
             return PRESETS[self.preset]
         if self.ior is None or self.k is None:
@@ -83,5 +83,5 @@ class Metal(Opaque):
 
     @property
     def alpha(self) -> float:
-        """The alpha of GGX; 0 for a mirror, and for what a float32 cannot tell from one."""
+        """The alpha of GGX; 0 for a mirror, and if float32 cannot distinguish it from one."""
         return alpha_of(self.roughness)

@@ -16,7 +16,7 @@ from glrt.settings import Cost, Editable
 class Principled(Opaque):
     """glTF's metallic-roughness surface: a coat, over metal and dielectric facets, over matte.
 
-    Facets are GGX with Schlick's reflectance. docs/explanation/principled.md tells the formulas.
+    Facets are GGX with Schlick's reflectance. docs/explanation/principled.md has the formulas.
     Color, emission, metallic, roughness, alpha and transmission may be textures.
     """
 
@@ -108,7 +108,7 @@ class Principled(Opaque):
 
     @property
     def facet_alpha(self) -> float:
-        """The alpha of GGX; 0 where a float32 cannot tell."""
+        """The alpha of GGX of the facets; 0 if float32 cannot distinguish it from smooth."""
         return alpha_of(self.roughness)
 
     @model_validator(mode="after")
@@ -119,12 +119,12 @@ class Principled(Opaque):
             raise ValueError("a lamp has no alpha; leave alpha or emission out")
         if self.metallic_map and self.transmission > 0:
             raise ValueError("metallic as a texture with transmission is not known; give a number")
-        _ = self.glass  # raises what does not fit
+        _ = self.glass  # raises for values that do not fit
         return self
 
     @property
     def glass(self) -> Dielectric | None:
-        """What light passes of it; its color, which tints light that crosses, comes beside."""
+        """The glass part, without the color that tints crossing light; None if it is opaque."""
         if not self.transmission:
             return None
         return Dielectric(
@@ -137,34 +137,34 @@ class Principled(Opaque):
 
     @property
     def is_unlit(self) -> bool:
-        """Whether it shows its emission and reflects nothing, as KHR_materials_unlit has it."""
+        """Whether it shows its emission and reflects nothing, as in KHR_materials_unlit."""
         return self.emits and not (any(self.color) or self.specular)
 
     @property
     def has_holes(self) -> bool:
-        """Whether light passes it in part or in places."""
+        """Whether light passes the surface partly, or in places."""
         return self.alpha_map is not None or self.coverage < 1
 
     @property
     def coverage(self) -> float:
-        """Share of the surface that is there, or the factor of the image that says so."""
+        """Share of the surface that is there, or the factor of an alpha texture."""
         if self.alpha_cutoff is None or self.alpha_map is not None:
             return self.alpha
         return 1.0 if self.alpha >= self.alpha_cutoff else 0.0
 
     @property
     def glass_share(self) -> float:
-        """Share of its surface that is glass."""
+        """Share of the surface that is glass."""
         return (1 - self.metallic) * self.transmission
 
     @property
     def coat_alpha(self) -> float:
-        """The same of the coat."""
+        """The alpha of GGX of the coat; 0 if float32 cannot distinguish it from smooth."""
         return alpha_of(self.clearcoat_roughness)
 
     @property
     def head_on(self) -> Color:
-        """Reflectance at normal incidence of what is no metal: f0."""
+        """Reflectance f0 of the part that is no metal, at normal incidence."""
         share = ((self.ior - 1) / (self.ior + 1)) ** 2
         red, green, blue = (min(share * tint, 1) * self.specular for tint in self.specular_color)
         return red, green, blue

@@ -20,7 +20,7 @@ def _two(value: Any) -> Any:
 
 
 def _grey(value: Any) -> Any:
-    """Numbers among two colors as greys."""
+    """Turn numbers among two colors into greys."""
     if not isinstance(value, tuple):
         return value
     return tuple((each,) * 3 if isinstance(each, float | int) else each for each in value)
@@ -38,8 +38,8 @@ Wraps = Annotated[tuple[Wrap, Wrap], BeforeValidator(_two), WithJsonSchema(_TWO_
 class Texture(Value):
     """An image or a checkerboard over the texture coordinates of a surface.
 
-    Exactly one of `image` and `checker` says which. Colors of an image are decoded from sRGB, other
-    numbers are its codes from 0 to 1.
+    Exactly one of `image` and `checker` is given. An image of colors is decoded from sRGB; other
+    numbers are the codes of an image, from 0 to 1.
     """
 
     image: NamedTexture | None = Field(None, description="path of an image, or FILE.glb#NUMBER")
@@ -91,14 +91,14 @@ class Texture(Value):
 
     @property
     def told(self) -> str:
-        """What it is, in words."""
+        """Name of the texture in words: the path of the image, or "a checkerboard"."""
         return "a checkerboard" if self.image is None else self.image.file
 
     @property
     def transform(self) -> NDArray[np.float64]:
-        """(2, 3): what to multiply (u, v, 1) by for the place in the image.
+        """The matrix, (2, 3), that takes (u, v, 1) to a place in the image.
 
-        Scaled, turned, then moved, as by KHR_texture_transform of glTF.
+        It scales, turns, then moves, as KHR_texture_transform of glTF does.
         """
         angle = math.radians(self.rotation)
         cos, sin = math.cos(angle), math.sin(angle)
@@ -107,12 +107,12 @@ class Texture(Value):
 
     @property
     def source(self) -> TextureImage | tuple[Color, Color] | None:
-        """What its texels are made of: equal for textures that share them."""
+        """The image or the colors of a checkerboard; equal for textures that share texels."""
         return self.image if self.image is not None else self.checker
 
     @property
     def texels(self) -> Texels:
-        """(H, W, 4), linear, row 0 on top; ValueError before the image is read."""
+        """Texels, (H, W, 4), linear, row 0 on top; ValueError before the image is read."""
         if self.checker is not None:
             first, second = ((*color, 1.0) for color in self.checker)
             return np.array([[first, second], [second, first]], np.float16)
@@ -144,10 +144,10 @@ class NormalTexture(Texture, json_schema_extra=_without_refused):
 
 
 def separated(data: Any, kinds: Mapping[str, bool]) -> Any:
-    """The keys of a material, where textures have keys of their own beside their factors.
+    """Return the keys of a material, with keys for textures separate from keys for their factors.
 
-    `kinds`: which keys may be textures, and whether they are colors. A texture `x` becomes `x_map`,
-    and `x` its factor, 1 by default; in a scene file `x_map` is no key.
+    `kinds` maps the keys that may be textures to whether they are colors. A texture `x` becomes
+    `x_map`, and `x` its factor, 1 by default; in a scene file `x_map` is no key.
     """
     if not isinstance(data, Mapping):
         return data
@@ -166,14 +166,14 @@ def separated(data: Any, kinds: Mapping[str, bool]) -> Any:
 
 
 def data_texture(value: Any) -> Any:
-    """A texture whose pixels are no colors, of a table of it."""
+    """Return the table of a texture whose pixels are data, not colors; other values stay."""
     if isinstance(value, Texture):
         value = {key: item for key, item in value if item is not None}
     return _with_kind(dict(value), False) if isinstance(value, Mapping) else value
 
 
 def _with_kind(table: dict[str, Any], is_color: bool) -> dict[str, Any]:
-    """The table, whose image knows whether it is one of colors; a wrong one is told later."""
+    """Return the table with an image of colors or of data; a wrong path is reported later."""
     kind, image = ColorImage if is_color else DataImage, table.get("image")
     if isinstance(image, ColorImage | DataImage) and type(image) is not kind:
         image = image.file
@@ -183,7 +183,7 @@ def _with_kind(table: dict[str, Any], is_color: bool) -> dict[str, Any]:
 
 
 def together(told: dict[str, Any], factors: Mapping[str, Any]) -> dict[str, Any]:
-    """The keys of a material as `separated` takes them; `factors` are those that are no 1."""
+    """Return the keys of a material as `separated` takes them; `factors` are those other than 1."""
     for key in [key for key in told if key.endswith("_map")]:
         name, table = key.removesuffix("_map"), told.pop(key)
         if table is not None:
@@ -194,7 +194,7 @@ def together(told: dict[str, Any], factors: Mapping[str, Any]) -> dict[str, Any]
 
 
 def in_one_key(schema: dict[str, Any]) -> None:
-    """The JSON schema of a material without keys `x_map`: `x` may be a texture instead."""
+    """Change the JSON schema of a material: `x` may be a texture, in place of a key `x_map`."""
     properties = schema["properties"]
     for key in [key for key in properties if key.endswith("_map")]:
         name, texture = key.removesuffix("_map"), properties.pop(key)

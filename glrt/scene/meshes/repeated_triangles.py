@@ -1,4 +1,4 @@
-"""Triangles that a mesh has twice, as where an exporter wrote one part under two names."""
+"""Find triangles that a mesh has twice, such as a part that was exported under two names."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +12,7 @@ _FACTOR, _NEXT = np.uint64(0x9E3779B97F4A7C15), np.uint64(0xC2B2AE3D27D4EB4F)
 
 
 def repeated(vertices: Floats, faces: Ints, labels: Ints | None) -> NDArray[np.bool_]:
-    """(n,): whether a triangle has the corners of one before it, in the same order round.
+    """Return whether each triangle has the corners of an earlier one, in the same order, (n,).
 
     Corners are compared by their coordinates, `vertices`, (v, 3), and triangles within one of the
     `labels`, (n,).
@@ -38,7 +38,7 @@ def repeated(vertices: Floats, faces: Ints, labels: Ints | None) -> NDArray[np.b
 
 
 def _keys(vertices: Floats, faces: Ints) -> Words:
-    """(n,): equal for triangles of equal corners, whichever comes first."""
+    """Return keys, (n,), that are equal for triangles of equal corners, whichever comes first."""
     x, y, z = np.ascontiguousarray(vertices + 0.0).view(np.uint64).T
     place = _mixed(_mixed(_mixed(x) + y) + z)
     a, b, c = (place[faces[:, k]] for k in range(3))

@@ -16,9 +16,9 @@ from glrt.scene.values import LARGEST
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-MOST_TRIANGLES = 4_000_000  # of a scene
+MOST_TRIANGLES = 4_000_000  # triangles in a scene
 ROUNDING = 1e-3  # how far out of its range a color may be by rounding
-NO_MATERIAL = "without material"  # the name of what has none, in a file that has materials
+NO_MATERIAL = "without material"  # name for triangles without one, in a file with materials
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,18 +27,18 @@ class TriangleMesh:
 
     vertices: Floats  # (v, 3)
     faces: Ints  # (n, 3): numbers of vertices
-    normals: Floats | None  # (v, 3), of any length, 0: unknown; None: none were given
-    colors: Floats | None = None  # (v, 3), linear sRGB, 0 to 1 each; None: none were given
-    names: tuple[str, ...] = ()  # of the materials of the file
-    labels: Ints | None = None  # (n,): the number of a name; None: the file names none
-    uv: Floats | None = None  # (v, 4): u and v of two sets of texture coordinates; None: none
-    tangents: Floats | None = None  # (v, 3), where u of the first set grows; None: none were given
-    repeated: int = 0  # triangles that were left out, since one of the same corners was there
-    unread: tuple[str, ...] = ()  # what of the file was left out
+    normals: Floats | None  # (v, 3), of any length, 0 if unknown; None if not given
+    colors: Floats | None = None  # (v, 3), linear sRGB, 0 to 1 each; None if not given
+    names: tuple[str, ...] = ()  # names of the file's materials
+    labels: Ints | None = None  # (n,): numbers of names; None if the file names none
+    uv: Floats | None = None  # (v, 4): u and v of two sets of texture coordinates; None without
+    tangents: Floats | None = None  # (v, 3), along which the first u grows; None if not given
+    repeated: int = 0  # triangles that were left out, since another one had the same corners
+    unread: tuple[str, ...] = ()  # parts of the file that were left out, in words
 
     @cached_property
     def box(self) -> tuple[Floats, Floats]:
-        """Its lowest and highest coordinates, (3,) each."""
+        """Lowest and highest coordinates of the vertices in use, (3,) each."""
         used = np.zeros(len(self.vertices), bool)
         used[self.faces] = True
         return self.vertices[used].min(axis=0), self.vertices[used].max(axis=0)
@@ -49,7 +49,7 @@ class TriangleMesh:
 
     @cached_property
     def _sums(self) -> Floats:
-        """(v, 3), of any length: normals that were given; those of no length are means, too."""
+        """Normals, (v, 3), of any length: the given ones, and means where none is given."""
         if self.normals is None:
             return self._mean_normals()
         is_given = self.normals.any(axis=1, keepdims=True)
@@ -59,7 +59,7 @@ class TriangleMesh:
 
     @cached_property
     def shading_normals(self) -> Floats:
-        """(v, 3), unit: those that were given, else means of the triangles around each vertex."""
+        """Unit normals, (v, 3): the given ones, else means of the triangles around each vertex."""
         given = self._sums
         length = np.linalg.norm(given, axis=1, keepdims=True)
         unit: Floats = np.divide(given, length, out=np.zeros_like(given), where=length > 0)
@@ -67,7 +67,7 @@ class TriangleMesh:
 
     @cached_property
     def shading_tangents(self) -> Floats:
-        """(v, 3): those that were given, else means; zero where there is none."""
+        """Tangents, (v, 3): the given ones, else means; zero where there is none."""
         given = np.zeros_like(self.vertices) if self.tangents is None else self.tangents
         is_given = given.any(axis=1, keepdims=True)
         if self.uv is None or is_given.all():
@@ -77,7 +77,7 @@ class TriangleMesh:
 
     @cached_property
     def opening(self) -> str:
-        """Why this encloses no volume, in words; empty if it encloses one."""
+        """Why the mesh encloses no volume, in words; empty if it encloses one."""
         place = self._place
         face: Ints = place[self.faces]
         face = face[(face != np.roll(face, 1, axis=1)).all(axis=1)]
@@ -94,14 +94,14 @@ class TriangleMesh:
 
     @cached_property
     def outward(self) -> "TriangleMesh":
-        """The same, with the triangles of a closed mesh turned over if they face inwards."""
+        """The mesh, with the triangles of a closed one turned over if they face inwards."""
         if self.opening or self._volume() >= 0:
             return self
         return replace(self, faces=self.faces[:, ::-1].copy())
 
     @cached_property
     def parts(self) -> dict[str, "TriangleMesh"]:
-        """The triangles of each material of the file, with the normals of the whole mesh."""
+        """Triangles of each material of the file, by name, with the normals of the whole mesh."""
         if self.labels is None:
             return {}
         sums = self._sums
@@ -135,9 +135,10 @@ def checked(
     uv: Any = None,
     tangents: Any = None,
 ) -> TriangleMesh:
-    """A mesh of arrays as of `TriangleMesh`.
+    """Return a mesh of arrays, which have the shapes of the fields of `TriangleMesh`.
 
-    Left out are triangles of two equal corners, and those that repeat another one of their label.
+    Left out are triangles with two equal corners, and triangles that repeat another one of their
+    label.
 
     Raises ValueError, which says what is wrong with which row.
     """
@@ -178,7 +179,11 @@ def of_file(
     uv: Any = None,
     tangents: Any = None,
 ) -> TriangleMesh:
-    """As `checked`, but colors and texture coordinates that are none are left out, at a vertex."""
+    """Return a mesh as `checked` does, with invalid colors and texture coordinates replaced.
+
+    A color far out of range becomes white, and such texture coordinates become 0; `unread` of the
+    mesh counts the vertices.
+    """
     unread = list[str]()
     if colors is not None:
         colors = np.array(colors, np.float64)

@@ -8,11 +8,11 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-PORTION = 1 << 18  # triangles that are looked at at once, so that memory is bounded
+PORTION = 1 << 18  # triangles that are processed at once, so that memory is bounded
 
 
 def places(rows: Floats) -> Ints:
-    """(v,): the number of the first of equal rows, as of vertices in the same place."""
+    """Return for each row the number of the first equal one, (v,), as of vertices in one place."""
     table = np.ascontiguousarray(rows + 0.0)  # without negative zeros
     whole = table.view(np.dtype((np.void, table.itemsize * table.shape[1]))).ravel()
     _, first, inverse = np.unique(whole, return_index=True, return_inverse=True)
@@ -20,7 +20,7 @@ def places(rows: Floats) -> Ints:
 
 
 def mean_normals(vertices: Floats, faces: Ints, place: Ints) -> Floats:
-    """(v, 3), of any length; vertices in the same `place` share theirs.
+    """Return normals, (v, 3), of any length; vertices in the same `place` share theirs.
 
     Triangles weigh by their angle there (Thuermer and Wuethrich, "Computing Vertex Normals from
     Polygonal Facets", 1998).
@@ -34,11 +34,12 @@ def mean_normals(vertices: Floats, faces: Ints, place: Ints) -> Floats:
 
 
 def mean_tangents(vertices: Floats, faces: Ints, normals: Floats, uv: Floats) -> Floats:
-    """(v, 3), unit: where u of uv, (v, 2), grows, perpendicular to unit normals, (v, 3); or zero.
+    """Return unit tangents, (v, 3), along which u of uv, (v, 2), grows; or zero.
 
-    As MikkTSpace has it (Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008, appendix A):
-    triangles weigh by their angle, and corners of equal place, normal and coordinates share theirs.
-    Zero where triangles of both orientations share one, and where u grows nowhere.
+    They are perpendicular to unit normals, (v, 3). As in MikkTSpace (Mikkelsen, "Simulation of
+    Wrinkled Surfaces Revisited", 2008, appendix A), triangles weigh by their angle, and corners of
+    equal place, normal and coordinates share a tangent. It is zero where triangles of both
+    orientations share one, and where u grows nowhere.
     """
     alike = places(np.concatenate([vertices, normals, uv], axis=1))
     sums = {sign: np.zeros_like(vertices) for sign in (1.0, -1.0)}
@@ -46,7 +47,7 @@ def mean_tangents(vertices: Floats, faces: Ints, normals: Floats, uv: Floats) ->
         corners, at = vertices[some], uv[some]
         _, angle = _corners(corners)
         one, other = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-        u, v = np.moveaxis(at[:, 1:] - at[:, :1], 2, 0)  # (n, 2) each: of both edges
+        u, v = np.moveaxis(at[:, 1:] - at[:, :1], 2, 0)  # (n, 2) each, along both edges
         turn = np.sign(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])
         grows = turn[:, None] * (one * v[:, 1:] - other * v[:, :1])
         normal = normals[some]
@@ -66,21 +67,21 @@ def _portions(faces: Ints) -> Iterator[Ints]:
 
 
 def _corners(corners: Floats) -> tuple[Floats, Floats]:
-    """(n, 3, 3) unit vectors along edges and (n, 3) angles of triangles, (n, 3, 3)."""
+    """Return unit vectors along edges, (n, 3, 3), and angles, (n, 3), of triangles, (n, 3, 3)."""
     along = _unit(np.roll(corners, -1, axis=1) - corners)
     cosine = -(along * np.roll(along, 1, axis=1)).sum(axis=2)
     return along, np.arccos(np.clip(cosine, -1, 1))
 
 
 def _unit(vectors: Floats) -> Floats:
-    """Of length 1, or zero."""
+    """Return vectors of length 1, or zero where there is no length."""
     length = np.linalg.norm(vectors, axis=-1, keepdims=True)
     unit: Floats = np.divide(vectors, length, out=np.zeros_like(vectors), where=length > 0)
     return unit
 
 
 def _sums(at: Ints, rows: Floats, count: int) -> Floats:
-    """(count, 3): rows, (n, 3, 3), added up by number, (n, 3)."""
+    """Return rows, (n, 3, 3), added up by number, (n, 3), as (count, 3)."""
     flat, numbers = rows.reshape(-1, 3), at.ravel()
     columns = [np.bincount(numbers, flat[:, axis], count) for axis in range(3)]
     return np.stack(columns, axis=1)

@@ -1,4 +1,4 @@
-"""Files of triangle meshes as arrays: PLY, OBJ and STL, read by trimesh, and glTF."""
+"""Read files of triangle meshes as arrays: PLY, OBJ and STL by trimesh, and glTF."""
 
 import logging
 import re
@@ -32,12 +32,12 @@ _PARTS = re.compile(rb"^(?:usemtl (.*)|f)", re.MULTILINE)
 
 
 def decode_mesh(content: bytes, path: str, where: str, fetch: Fetch | None = None) -> TriangleMesh:
-    """The mesh in what a file holds; the suffix of its path tells the format.
+    """Return the mesh in the content of a file; the suffix of its path decides the format.
 
-    Polygons are divided into triangles. Colours of vertices are linear where a PLY file has them as
-    floats, else sRGB. Of materials, the names of those of OBJ and glTF files are read; colours of
-    faces are not. `fetch` reads the buffers of glTF files.
-    Raises `SceneError`, which begins with `where`, for what is no mesh.
+    Polygons are divided into triangles. Vertex colours are linear where a PLY file has them as
+    floats, else sRGB. The names of materials of OBJ and glTF files are read; colours of faces are
+    not. `fetch` reads the buffers of glTF files. Raises `SceneError`, which begins with `where`, if
+    there is no mesh.
     """
     suffix = PurePosixPath(path).suffix.lower()
     if suffix not in FORMATS:
@@ -47,7 +47,7 @@ def decode_mesh(content: bytes, path: str, where: str, fetch: Fetch | None = Non
         )
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of arithmetic with what is no number: found below
+            warnings.simplefilter("ignore")  # of arithmetic with NaN, which is found below
             if suffix in GLTF:
                 return mesh_of(Document(content, fetch or _alone))
             if suffix == ".obj":
@@ -56,12 +56,12 @@ def decode_mesh(content: bytes, path: str, where: str, fetch: Fetch | None = Non
                 return _mesh(_reader(suffix)(BytesIO(content)), suffix, _names(content))
             return _mesh(_reader(suffix)(BytesIO(content)), suffix)
     except SceneError:
-        raise  # of a file beside it
+        raise  # of a file next to it
     except NotInstalledError as error:
         raise SceneError(f"{where}: {quoted(path)} {error}") from None
     except MemoryError:
         problem = "it says that it is larger than the memory"
-    except Exception as error:  # trimesh raises whatever its parts do
+    except Exception as error:  # trimesh raises errors of many kinds
         problem = _reason(error)
     raise SceneError(
         f"{where}: {quoted(path)} is damaged, or no {suffix[1:].upper()} file: {problem}. Export "
@@ -74,7 +74,7 @@ def _alone(path: str) -> bytes:
 
 
 def libraries(content: bytes) -> list[str]:
-    """The paths of the MTL files that an OBJ file names, relative to it, each once."""
+    """Return the paths of the MTL files that an OBJ file names, relative to it, each once."""
     found: list[str] = []
     for line in _LIBRARY.findall(_plain_lines(content)):
         text = line.decode("utf-8", "replace").strip()
@@ -83,7 +83,7 @@ def libraries(content: bytes) -> list[str]:
 
 
 def _plain_lines(content: bytes) -> bytes:
-    """An OBJ file without comments, continued lines and names of other things than materials.
+    """Return an OBJ file without comments, continued lines, and names of anything but materials.
 
     trimesh takes "usemtl" for a material wherever it stands. A '#' may be part of a name.
     """
@@ -93,7 +93,7 @@ def _plain_lines(content: bytes) -> bytes:
 
 
 def _names(content: bytes) -> list[str]:
-    """The material of each run of faces, in the order in which trimesh gives them: backwards."""
+    """Return the material of each run of faces, in the order of trimesh: backwards."""
     found, name, is_new = list[str](), "", True
     for match in _PARTS.finditer(content):
         if match[0] != b"f":
@@ -105,12 +105,12 @@ def _names(content: bytes) -> list[str]:
 
 
 def _reader(suffix: str) -> Callable[[Any], dict[str, Any]]:
-    """Importing trimesh takes 0.3 s, which scenes without meshes do not pay."""
+    """Return trimesh's reader for a suffix; its import takes 0.3 s, which only meshes pay."""
     from trimesh.exchange.obj import load_obj
     from trimesh.exchange.ply import load_ply
     from trimesh.exchange.stl import load_stl
 
-    logging.getLogger("trimesh").setLevel(logging.CRITICAL + 1)  # what is wrong is told once
+    logging.getLogger("trimesh").setLevel(logging.CRITICAL + 1)  # mistakes are reported once
 
     def obj(file: Any) -> dict[str, Any]:
         return dict(load_obj(file, skip_materials=True, group_material=False))
@@ -127,7 +127,7 @@ def _reader(suffix: str) -> Callable[[Any], dict[str, Any]]:
 
 
 def _mesh(tables: dict[str, Any], suffix: str, owners: Sequence[str] = ()) -> TriangleMesh:
-    """Of what trimesh read: a mesh, or several, each of the material of its owner."""
+    """Return what trimesh read as one mesh; of several, each has the material of its owner."""
     parts = list(tables["geometry"].values()) if "geometry" in tables else [tables]
     vertices, faces, first = [], [], 0
     normals: list[Any] = []
@@ -144,7 +144,7 @@ def _mesh(tables: dict[str, Any], suffix: str, owners: Sequence[str] = ()) -> Tr
     if not vertices:
         raise ValueError("it has no triangles")
     points, triangles = np.concatenate(vertices), np.concatenate(faces)
-    if suffix == ".stl":  # no triangles share vertices there
+    if suffix == ".stl":  # triangles share no vertices in STL files
         return of_file(points, places(points)[triangles])
     names, labels = _labels(owners, [len(rows) for rows in faces])
     rows = _joined(normals), _joined(colors), names, labels, _joined(sets)
@@ -152,7 +152,7 @@ def _mesh(tables: dict[str, Any], suffix: str, owners: Sequence[str] = ()) -> Tr
 
 
 def _uv(visual: Any, count: int) -> NDArray[np.float64] | None:
-    """(v, 4) texture coordinates, both sets the same, of v that grows downwards."""
+    """Return texture coordinates, (v, 4), both sets the same, with v growing downwards; or None."""
     found = getattr(visual, "uv", None)
     if found is None or len(found) != count:
         return None
@@ -161,7 +161,7 @@ def _uv(visual: Any, count: int) -> NDArray[np.float64] | None:
 
 
 def _labels(owners: Sequence[str], counts: list[int]) -> tuple[tuple[str, ...], Any]:
-    """Each name once, and for each triangle its number; none where no face has a name."""
+    """Return each name once, and for each triangle its number; none where no face has a name."""
     if not any(owners):
         return (), None
     if len(owners) != len(counts):
@@ -172,15 +172,15 @@ def _labels(owners: Sequence[str], counts: list[int]) -> tuple[tuple[str, ...], 
 
 
 def _joined(parts: list[Any]) -> NDArray[Any] | None:
-    """Those of all parts, or none where one has none."""
+    """Return the rows of all parts, or None if one has none."""
     return None if any(part is None for part in parts) else np.concatenate(parts)
 
 
 def _linear(colors: Any, suffix: str) -> NDArray[np.float64] | None:
-    """(v, 3) linear sRGB of colours, (v, 3 or more), None for none.
+    """Return colours, (v, 3 or more), as linear sRGB, (v, 3); None without colours.
 
     Whole numbers are codes of sRGB up to the largest of their type. PLY files state no encoding for
-    floats, which programs write linear; those of OBJ files are sRGB.
+    floats, which programs write linear; floats in OBJ files are sRGB.
     """
     if colors is None:
         return None
@@ -191,7 +191,7 @@ def _linear(colors: Any, suffix: str) -> NDArray[np.float64] | None:
 
 
 def _fans(polygons: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Polygons of k corners each, (n, k), as triangles around their first corners."""
+    """Return polygons of k corners each, (n, k), as triangles around their first corners."""
     if not polygons.size:
         return polygons.reshape(-1, 3)
     if polygons.ndim != 2 or polygons.shape[1] < 3:

@@ -1,6 +1,6 @@
 """MTL files: the materials of OBJ files, as those of a scene.
 
-Keys after Wavefront's "Advanced Visualizer" manual, appendix B1, and the extension for physically
+Keys follow Wavefront's "Advanced Visualizer" manual, appendix B1, and the extension for physically
 based rendering (`Pr`, `Pm`). docs/how-to/models.md says what becomes of each.
 """
 
@@ -20,11 +20,11 @@ from glrt.scene.values import BLACK, LARGEST, WHITE, Color, Radiance
 LONGEST = 16 << 20  # bytes of a file
 ROUNDING = 1e-3  # how far out of its range a value may be by rounding
 
-_COLORS = {"Kd": 1.0, "Ks": 1.0, "Ke": LARGEST}  # the largest value of each
+_COLORS = {"Kd": 1.0, "Ks": 1.0, "Ke": LARGEST}  # largest value of each key
 _NUMBERS = {"Ns": 1e9, "Ni": 10.0, "d": 1.0, "Tr": 1.0, "illum": 10.0, "Pr": 1.0, "Pm": 1.0}
 _SILENT = {"Ka"}  # the colour of ambient light, which has no meaning here
 _GLASS, _MIRRORS = (4, 6, 7, 9), (3, 5)  # models of `illum`
-_USUAL_IOR = 1.5  # where Ni is not given
+_USUAL_IOR = 1.5  # where Ni is missing
 _LEAST_IOR = 1e-3
 _GREY = (0.8, 0.8, 0.8)  # where no colour is given
 _LONGEST_PATH = 500  # letters of the path of an image
@@ -32,7 +32,7 @@ _CONTROL = re.compile(r"[\x00-\x1f\x7f]")
 _COMMENT = re.compile(r"\s#\s.*$")  # names may have a '#' within
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 _PLACING, _MOST_PLACING = ("-s", "-o"), 1e6
-_OPTIONS = {  # of images, and how many arguments each has at most
+_OPTIONS = {  # options of images, and the most arguments of each
     "-s": 3,
     "-o": 3,
     "-t": 3,
@@ -46,17 +46,17 @@ _OPTIONS = {  # of images, and how many arguments each has at most
 
 @dataclass
 class Entry:
-    """The keys of a material in a file, and the names of those that are left out."""
+    """The keys of a material in a file, and the names of keys that are left out."""
 
     colors: dict[str, Radiance] = field(default_factory=dict)
     numbers: dict[str, float] = field(default_factory=dict)
     unread: dict[str, None] = field(default_factory=dict)
-    image: str = ""  # of the diffuse colour: a path from the file
-    placing: dict[str, tuple[float, ...]] = field(default_factory=dict)  # of it: u, or u and v
+    image: str = ""  # path of the diffuse colour's image, from the file
+    placing: dict[str, tuple[float, ...]] = field(default_factory=dict)  # of the image: u or u, v
 
 
 def decode_mtl(content: bytes, where: str) -> dict[str, Entry]:
-    """The materials in an MTL file, by name: the first of each.
+    """Return the materials in an MTL file, by name: the first of each.
 
     A value out of range is moved into it, and what cannot be read is left out; entries say so.
     Raises `SceneError`, which begins with `where`, for a file that is too large.
@@ -103,7 +103,7 @@ def _read(key: str, words: list[str], entry: Entry) -> None:
 
 
 def _in_range(key: str, words: list[str], largest: float, entry: Entry) -> list[float]:
-    """The numbers of a key, moved into its range; none where a word is no finite number."""
+    """Return the numbers of a key, moved into its range; none if a word is no finite number."""
     try:
         given = [float(word) for word in words]
     except ValueError:
@@ -117,7 +117,7 @@ def _in_range(key: str, words: list[str], largest: float, entry: Entry) -> list[
 
 
 def _read_image(words: list[str], entry: Entry) -> None:
-    """The image of map_Kd behind its options: the path may have blanks, and words with '-'."""
+    """Read the image of map_Kd behind its options; the path may have blanks, and words with '-'."""
     rest = list(words)
     while rest and rest[0] in _OPTIONS:
         option, most = rest[0], _OPTIONS[rest[0]]
@@ -136,12 +136,12 @@ def _read_image(words: list[str], entry: Entry) -> None:
 
 
 def _is_argument(words: list[str]) -> bool:
-    """Whether the next word belongs to an option: a number, or a switch."""
+    """Return whether the next word belongs to an option: a number, or a switch."""
     return bool(words) and (words[0] in ("on", "off") or bool(_NUMBER.fullmatch(words[0])))
 
 
 def material_of(entry: Entry) -> tuple[Material, list[str]]:
-    """The material of a scene that is nearest, and the keys that it leaves out."""
+    """Return the nearest material of a scene, and the keys that it leaves out."""
     colors, numbers, unread = entry.colors, entry.numbers, list(entry.unread)
     emission = colors.get("Ke", BLACK)
     if _is_glass(numbers):
@@ -155,7 +155,7 @@ def material_of(entry: Entry) -> tuple[Material, list[str]]:
     diffuse: Color = colors.get("Kd", _GREY if is_grey else BLACK)
     color: Color | Texture = diffuse
     if entry.image:
-        factor = diffuse if any(diffuse) else WHITE  # many programs write 0 beside an image
+        factor = diffuse if any(diffuse) else WHITE  # many programs write 0 with an image
         scale, offset = _placing(entry)
         color = Texture(image=entry.image, factor=factor, scale=scale, offset=offset)
     if numbers.get("Pm", 0.0) >= 0.5:
@@ -168,7 +168,7 @@ def material_of(entry: Entry) -> tuple[Material, list[str]]:
 
 
 def _placing(entry: Entry) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Scale and offset of an image: v grows upwards in MTL files, and downwards here."""
+    """Return scale and offset of an image: v grows upwards in MTL files, and downwards here."""
     scale_u, scale_v = (*entry.placing.get("-s", ()), 1.0, 1.0)[:2]
     offset_u, offset_v = (*entry.placing.get("-o", ()), 0.0, 0.0)[:2]
     return (scale_u, scale_v), (offset_u, 1 - scale_v - offset_v)
@@ -184,7 +184,7 @@ def _is_glass(numbers: dict[str, float]) -> bool:
 
 
 def _roughness(numbers: dict[str, float]) -> float:
-    """Pr; else of Phong's exponent, alpha = sqrt(2 / (Ns + 2)); 0 where neither is given.
+    """Return Pr, else the root of alpha = sqrt(2 / (Ns + 2)) of Phong's exponent; 0 without both.
 
     B. Walter et al., "Microfacet Models for Refraction through Rough Surfaces", 2007, section 5.2.
     """

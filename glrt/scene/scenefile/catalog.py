@@ -12,24 +12,24 @@ MODELS = (".glb", ".gltf", ".obj", ".ply", ".stl")
 
 
 def scene_names() -> list[str]:
-    """Names of the scenes that come with glrt, sorted."""
+    """Return the names of the scenes that come with glrt, sorted."""
     return sorted(path.stem for path in folder("scenes").glob("*.toml"))
 
 
 def all_scene_names() -> list[str]:
-    """`scene_names`, and then those in folders, as `methods/glass`."""
+    """Return `scene_names`, and then the names of scenes in folders, such as `methods/glass`."""
     root = folder("scenes")
     deeper = (path.relative_to(root).with_suffix("") for path in root.glob("*/**/*.toml"))
     return [*scene_names(), *sorted(path.as_posix() for path in deeper)]
 
 
 def file_of(name: str) -> Path:
-    """The file of a scene that comes with glrt."""
+    """Return the file of a scene that comes with glrt."""
     return folder("scenes") / f"{name}.toml"
 
 
 def find(source: str | Path) -> Path:
-    """The file that a path or a name means; SceneError for an unknown name.
+    """Return the file that a path or a name means; SceneError for an unknown name.
 
     A word that ends as a scene file, a model or a picture is a path, and never a name: a file that
     is missing must not be replaced by another one.

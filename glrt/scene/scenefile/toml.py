@@ -1,4 +1,4 @@
-"""Scene files: TOML into scenes and back into tables."""
+"""Read scene files: TOML into scenes."""
 
 import re
 import tomllib
@@ -17,20 +17,20 @@ from glrt.scene.schema.validation import scene_error, validated
 # A scene of 65,536 quads with every number at full length takes 18 MB.
 LARGEST = 32 << 20  # bytes of a scene
 
-# tomllib takes a minute and 6 GB for a key of 40,000 parts. Those of a scene have four at most.
+# tomllib takes a minute and 6 GB for a key of 40,000 parts. Keys of a scene have four at most.
 _MOST_PARTS = 64
 _PART = r"""(?:(?<![\w-])[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+"""
 _LONG_KEY = re.compile(rf"(?:{_PART}\.[ \t]*+){{{_MOST_PARTS}}}")
 
 
 def read_scene(path: Path) -> Scene:
-    """The scene in a TOML file; raises `SceneError`, one paragraph that begins with the path."""
+    """Return the scene in a TOML file; raises `SceneError`, which begins with the path."""
     source = str(path)
     return decode_scene(_content(path, source), source)
 
 
 def decode_scene(content: bytes, source: str) -> Scene:
-    """The scene in what a TOML file holds; `source` is what messages call it.
+    """Return the scene in the content of a TOML file; messages call it `source`.
 
     Raises `SceneError` with one paragraph that begins with `source`.
     """
@@ -47,7 +47,7 @@ def decode_scene(content: bytes, source: str) -> Scene:
 
 
 def parse_scene(data: Mapping[str, Any], source: str) -> Scene:
-    """The scene in parsed TOML or JSON; `source` is what messages call it.
+    """Return the scene in parsed TOML or JSON; messages call it `source`.
 
     Raises `SceneError` with one paragraph that begins with `source`.
     """
@@ -63,7 +63,7 @@ def _content(path: Path, source: str) -> bytes:
         raise scene_error(source, "is a folder; name a scene file in it") from None
     except OSError as error:
         raise scene_error(source, _obstacle(error)) from None
-    except ValueError:  # a NUL, or what the encoding of the system does not hold
+    except ValueError:  # for a NUL, or characters outside the system's encoding
         raise scene_error(source, "no file can have this name; check it") from None
 
 
@@ -95,5 +95,5 @@ def _toml(text: str, source: str) -> dict[str, Any]:
     except tomllib.TOMLDecodeError as error:
         where = str(error).replace("end of document", f"line {text.count(chr(10)) + 1}, the end")
         raise scene_error(source, f"not valid TOML: {where}; correct that line") from None
-    except ValueError:  # of int(), which stops at 4300 digits
+    except ValueError:  # from int(), which stops at 4300 digits
         raise scene_error(source, "not a scene: a number has thousands of digits") from None

@@ -1,4 +1,4 @@
-"""Objects that come and go in the text of a scene file; each goes with the comment above it."""
+"""Add and remove objects in the text of a scene file, each with the comment above it."""
 
 import json
 import re
@@ -7,7 +7,7 @@ from difflib import SequenceMatcher
 from typing import Any
 
 Table = Mapping[str, Any]
-Pairs = list[tuple[int | None, int]]  # number before, None for what is new, and number after
+Pairs = list[tuple[int | None, int]]  # number before, None for a new object, and number after
 
 _HEADER = re.compile(r"\s*\[\[\s*objects\s*\]\]\s*(#.*)?$")
 _OTHER_TABLE = re.compile(r"\s*\[\[?\s*[^\s\[\],=0-9][^\[\],=]*\]\]?\s*(#.*)?$")
@@ -16,11 +16,11 @@ _OTHER_TABLE = re.compile(r"\s*\[\[?\s*[^\s\[\],=0-9][^\[\],=]*\]\]?\s*(#.*)?$")
 def with_as_many(
     text: str, before: Sequence[Table], after: Sequence[Table], new: Sequence[str]
 ) -> tuple[str, list[Table]]:
-    """The text of a scene file without the objects that go, with those that come.
+    """Return the text of a scene file with objects removed and added, and its objects as tables.
 
-    `before` and `after` are all objects as tables, `new` the texts of those of `after` as if each
-    were new. Returns the text, and its objects as tables: those that stay are as before. A text
-    that does not write its objects as `[[objects]]` stays as it is.
+    `before` and `after` are all objects as tables, `new` a text for each object of `after` as if it
+    were new. Tables of objects that stay are as before. A text that does not write its objects as
+    `[[objects]]` stays as it is.
     """
     lines = text.splitlines(keepends=True)
     spans = list(_spans(lines))
@@ -48,7 +48,7 @@ def with_as_many(
 
 
 def paired(before: Sequence[Table], after: Sequence[Table]) -> Pairs:
-    """For each object of `after` the one of `before` that it was; both in their order."""
+    """Pair each object of `after` with the object of `before` that it was, both in their order."""
     found = dict(_paired([_text(t) for t in after], [_text(t) for t in before]))
     pairs = Pairs()
     last = 0
@@ -65,7 +65,10 @@ def paired(before: Sequence[Table], after: Sequence[Table]) -> Pairs:
 
 
 def _in_gap(before: Sequence[Table], after: Sequence[Table], old: range, new: range) -> Pairs:
-    """Of objects between two that did not change: by kind and name; as many on both sides, all."""
+    """Pair objects between two that did not change, by kind, name and material.
+
+    With as many on both sides, all are paired.
+    """
     if len(old) == len(new):
         return list(zip(old, new, strict=True))
     marks = [[_mark(table[n]) for n in part] for table, part in ((after, new), (before, old))]
@@ -74,7 +77,7 @@ def _in_gap(before: Sequence[Table], after: Sequence[Table], old: range, new: ra
 
 
 def _paired(after: list[str], before: list[str]) -> Iterator[tuple[int, int]]:
-    """Numbers of equal texts, in both orders."""
+    """Yield the numbers of equal texts, in the order of both lists."""
     for a, b, count in SequenceMatcher(None, after, before, autojunk=False).get_matching_blocks():
         yield from ((a + k, b + k) for k in range(count))
 
@@ -88,7 +91,7 @@ def _mark(table: Table) -> str:
 
 
 def _coming(pairs: Pairs, new: list[str]) -> dict[int | None, list[str]]:
-    """Texts of what is new, by the number before behind which they stand; None: in front."""
+    """Return texts of new objects, by the number before behind which they stand; None: in front."""
     coming: dict[int | None, list[str]] = {}
     behind = None
     for old, number in pairs:
@@ -100,7 +103,7 @@ def _coming(pairs: Pairs, new: list[str]) -> dict[int | None, list[str]]:
 
 
 def _spans(lines: list[str]) -> Iterator[tuple[int, int]]:
-    """First line and the one behind the last of each object, with the comment right above it."""
+    """Yield first line and line after the last of each object, with the comment right above it."""
     number = 0
     while number < len(lines):
         if not _HEADER.match(lines[number]):
@@ -118,7 +121,7 @@ def _spans(lines: list[str]) -> Iterator[tuple[int, int]]:
 
 
 def _after_blank(lines: list[str], number: int) -> int:
-    """The line behind one that is blank: it parted what went from what follows."""
+    """Return the line after a blank one, which separated a removed object from what follows."""
     is_blank = number < len(lines) and not lines[number].strip()
     return number + 1 if is_blank else number
 

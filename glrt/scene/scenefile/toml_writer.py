@@ -1,4 +1,4 @@
-"""A scene as a TOML file, on request with the comments, order and formatting of another one."""
+"""Write a scene as a TOML file, on request with the comments, order and format of another one."""
 
 import tomllib
 from collections.abc import Mapping
@@ -15,13 +15,13 @@ from glrt.scene.scenefile.toml_lists import with_as_many
 from glrt.scene.schema.tables import scene_to_dict, short_tables, toml_lines, toml_text
 from glrt.settings import RenderSettings, Settings
 
-MOST_LETTERS = 500_000  # of a file, which takes seconds: beyond, its comments go
+MOST_LETTERS = 500_000  # of a file, which takes seconds: a longer one loses its comments
 
 Table = Mapping[str, Any]
 
 
 def scene_with(scene: Scene, settings: Settings) -> Scene:
-    """The scene with these settings as its own wishes."""
+    """Return the scene with these settings as its `[render]` table."""
     wishes = {name: getattr(settings, name) for name in RenderSettings.model_fields}
     return scene.model_copy(update={"render": RenderSettings(**wishes)})
 
@@ -29,8 +29,8 @@ def scene_with(scene: Scene, settings: Settings) -> Scene:
 def write_scene(scene: Scene, path: Path, model: Path | None = None) -> bool:
     """Write a file that `read_scene` reads back as the same scene, and copies of its files.
 
-    `model` is a scene file whose comments, order and formatting it is to have; returns whether that
-    could be. It appears whole or not at all: raises `RenderError` if it cannot be written,
+    `model` is a scene file whose comments, order and formatting are to be kept; returns whether
+    they were. The file appears whole or not at all. Raises `RenderError` if it cannot be written,
     `UsageError` if a copy would replace another file.
     """
     copy_files(scene, path.parent)
@@ -41,7 +41,7 @@ def write_scene(scene: Scene, path: Path, model: Path | None = None) -> bool:
 
 
 def _text(path: Path) -> str:
-    """Of a file, with the ends of its lines; of one that is no text, something that is no scene."""
+    """Return the text of a file with its line endings; if it is no text, one that is no scene."""
     try:
         return path.read_bytes().decode("utf-8-sig")
     except (OSError, UnicodeDecodeError):
@@ -53,9 +53,9 @@ def _write(path: Path, content: bytes) -> None:
 
 
 def _with_comments(text: str, scene: Scene) -> str | None:
-    """The text of a scene file, made to say `scene`; None where that cannot be done.
+    """Return the text of a scene file, changed to describe `scene`; None if that is impossible.
 
-    What has not changed stands as it did. UsageError if the library for that is not installed.
+    Parts that have not changed stand as they did. UsageError if tomlkit is not installed.
     """
     if len(text) > MOST_LETTERS:
         return None
@@ -72,9 +72,9 @@ def _with_comments(text: str, scene: Scene) -> str | None:
 
 
 def _changed(text: str, before: Table, after: Table, short: Table) -> str:
-    """Make the text say `after`; `short` is that without defaults, as what is new is written.
+    """Return the text, changed from `before` to `after`; new parts are written as in `short`.
 
-    ValueError if the library cannot make the change.
+    `short` is `after` without defaults. ValueError if the library cannot make the change.
     """
     try:
         import tomlkit
@@ -87,12 +87,12 @@ def _changed(text: str, before: Table, after: Table, short: Table) -> str:
         document = tomlkit.parse(text)
         _follow(document, before, after, short)
         return tomlkit.dumps(document)
-    except (LookupError, TypeError, AttributeError) as error:  # ways to write TOML are many
+    except (LookupError, TypeError, AttributeError) as error:  # TOML can be written in many ways
         raise ValueError(str(error)) from error
 
 
 def _follow(table: Any, before: Table, after: Table, short: Table) -> None:
-    """Make the same changes to a table of the document as lead from one table to another."""
+    """Make the changes from `before` to `after` in a table of the document."""
     for key in before.keys() - after.keys():
         table.pop(key, None)
     for key, value in after.items():
@@ -110,7 +110,7 @@ def _follow(table: Any, before: Table, after: Table, short: Table) -> None:
 
 
 def _follow_items(items: Any, before: list[Any], after: list[Any]) -> None:
-    """The same for a list, whose items may be tables."""
+    """Make the changes from `before` to `after` in a list, whose items may be tables."""
     for index, (old, value) in enumerate(zip(before, after, strict=True)):
         if isinstance(value, dict) and value != old:
             _follow(items[index], old, value, {})

@@ -17,7 +17,7 @@ MAX_OBJECTS = 65_536
 
 
 class SceneFields(Frozen):
-    """The fields of a scene: whether they fit together is for `Scene` to say."""
+    """The fields of a scene; `Scene` checks whether they fit together."""
 
     title: Annotated[str, Field(pattern=r"^[^\x00-\x1f\x7f]*$")] | None = Field(
         None, description="one sentence on one line, shown in the gallery"

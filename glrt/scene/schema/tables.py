@@ -9,11 +9,11 @@ from pydantic import BaseModel
 from glrt.scene.schema.fields import SceneFields
 from glrt.settings import RenderSettings
 
-_NO_LISTS = (str, Mapping)  # though they can be iterated over
+_NO_LISTS = (str, Mapping)  # these are no lists, though they can be iterated over
 
 
 def to_tables(**parts: Any) -> dict[str, Any]:
-    """The fields of a scene, as models, tables or arrays, as tables; what is None is absent."""
+    """Return the fields of a scene, given as models, tables or arrays, as tables without None."""
     given = {key: _table(value) for key, value in parts.items() if value is not None}
     if isinstance(materials := given.get("materials"), Mapping):
         given["materials"] = {name: _table(item) for name, item in materials.items()}
@@ -23,8 +23,8 @@ def to_tables(**parts: Any) -> dict[str, Any]:
 
 
 def _table(value: Any) -> Any:
-    """A model as a table; what is none stays."""
-    if isinstance(value, RenderSettings):  # of all settings, a scene takes some: those alone fit
+    """Return a model as a table; other values stay as they are."""
+    if isinstance(value, RenderSettings):  # Settings has fields that scenes lack
         return value.model_dump(exclude_unset=True)
     if isinstance(value, BaseModel):
         return {key: item for key, item in value if item is not None}
@@ -32,20 +32,20 @@ def _table(value: Any) -> Any:
 
 
 def scene_to_dict(scene: SceneFields) -> dict[str, Any]:
-    """The scene as plain tables, lists, numbers and strings that `parse_scene` reads back.
+    """Return the scene as plain tables, lists, numbers and strings that `parse_scene` reads back.
 
-    Defaults are written out, so that a recipe keeps its meaning; what was left open is absent.
+    Defaults are written out, so that a recipe keeps its meaning; values of None are absent.
     """
     return scene.model_dump(mode="json", exclude_none=True)
 
 
 def toml_text(scene: SceneFields) -> str:
-    """A scene file, to its last line; what has its default is left out."""
+    """Return the text of a scene file, to its last line; values with their default are left out."""
     return "\n".join(toml_lines(short_tables(scene))).strip() + "\n"
 
 
 def short_tables(scene: SceneFields) -> dict[str, Any]:
-    """`scene_to_dict` without defaults, but for format and kinds of materials and shapes."""
+    """Return `scene_to_dict` without defaults, except format and kinds of materials and shapes."""
     found = scene.model_dump(mode="json", exclude_none=True, exclude_defaults=True)
     for name, material in scene.materials.items():
         found["materials"][name] = {"type": material.type, **found["materials"][name]}
@@ -57,7 +57,7 @@ def short_tables(scene: SceneFields) -> dict[str, Any]:
 
 
 def toml_lines(table: Mapping[str, Any], path: tuple[str, ...] = ()) -> Iterator[str]:
-    """The lines of a table: its values, then its tables, then its lists of tables."""
+    """Yield the lines of a table: first its values, then its tables and lists of tables."""
     for key, value in table.items():
         if not isinstance(value, Mapping) and not _is_list_of_tables(value):
             yield f"{_key(key)} = {_value(value)}"
@@ -81,7 +81,7 @@ def _key(key: str) -> str:
 
 
 def _value(value: Any) -> str:
-    """A number, a truth, a text or a list of them; JSON's texts are TOML's."""
+    """Return the TOML of a number, a boolean, a text or a list of them; JSON's texts are TOML's."""
     if isinstance(value, list):
         return f"[{', '.join(map(_value, value))}]"
     return json.dumps(value, ensure_ascii=False)

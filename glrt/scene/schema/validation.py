@@ -1,6 +1,6 @@
-"""Plain tables into models, and mistakes in them told in the terms of a scene file.
+"""Validate plain tables as models, and report mistakes in the terms of a scene file.
 
-pydantic says what does not validate, in its own terms; here its reports become sentences.
+pydantic reports what does not validate in its own terms; here its reports become sentences.
 """
 
 import re
@@ -25,7 +25,7 @@ from glrt.scene.values import SMALLEST, plain
 from glrt.settings import RenderSettings
 
 MOST_PROBLEMS_NAMED = 3
-MOST_MISTAKES = 1 << 17  # that are worth being told apart: each takes a kilobyte
+MOST_MISTAKES = 1 << 17  # that are listed: each takes a kilobyte
 
 Model = TypeVar("Model", bound=BaseModel)
 Place = tuple[int | str, ...]
@@ -49,7 +49,7 @@ class MisfitError(ValueError):
 
 
 def validated(model: type[Model], data: Mapping[str, Any], source: str) -> Model:
-    """A scene or a part of one in plain tables; `source` is what messages call it.
+    """Return a scene or a part of one from plain tables; messages call it `source`.
 
     Raises `SceneError` with one paragraph that begins with `source`.
     """
@@ -63,12 +63,12 @@ def validated(model: type[Model], data: Mapping[str, Any], source: str) -> Model
 
 
 def scene_error(source: str, text: str) -> SceneError:
-    """An error about a scene that messages call `source`."""
+    """Return an error about a scene that messages call `source`."""
     return SceneError(sentence(f"{source}: {text}"))
 
 
 def advice(error: ValidationError, data: Mapping[str, Any]) -> Iterator[str]:
-    """A sentence for each of the first problems, and the number of the others."""
+    """Yield a sentence for each of the first problems, and one with the number of the others."""
     problems = _problems(error)
     for place, detail in problems[:MOST_PROBLEMS_NAMED]:
         path = _path(place[:-1] if _is_extra(detail) else place, data)
@@ -81,12 +81,12 @@ def advice(error: ValidationError, data: Mapping[str, Any]) -> Iterator[str]:
 
 
 def sentence(text: str) -> str:
-    """The text with a full stop, unless it ends with a mark of its own."""
+    """Return the text with a full stop, unless it ends with a mark of its own."""
     return text if text.endswith((".", "?")) else text + "."
 
 
 def _problems(error: ValidationError) -> list[tuple[Place, ErrorDetails | str]]:
-    """What is wrong, each place once: ready advice, or details that are still to be worded."""
+    """Return the problems, each place once: ready advice, or details still to be worded."""
     found: dict[Place, ErrorDetails | str] = {}
     for detail in error.errors(include_url=False):
         cause = detail.get("ctx", {}).get("error")
@@ -100,7 +100,7 @@ def _problems(error: ValidationError) -> list[tuple[Place, ErrorDetails | str]]:
 def _without_consequences(
     found: dict[Place, ErrorDetails | str],
 ) -> list[tuple[Place, ErrorDetails | str]]:
-    """A misspelt key is one problem: the right key, missing for that reason, is not another."""
+    """Drop keys that are missing only since they are misspelt: a misspelt key is one problem."""
     meant = {
         (*place[:-1], nearest(str(place[-1]), _keys(detail)))
         for place, detail in found.items()
@@ -110,9 +110,9 @@ def _without_consequences(
 
 
 def _place(detail: ErrorDetails) -> Place:
-    """Keys and indices from the top of the file, without the tags that pydantic mixes in."""
+    """Return keys and indices from the top of the file, without the tags that pydantic mixes in."""
     place: Place = detail["loc"]
-    is_key = place[-1:] == ("[key]",) and not _is_extra(detail)  # an extra may be called so
+    is_key = place[-1:] == ("[key]",) and not _is_extra(detail)  # an unknown key may have this name
     if is_key or detail["type"] == "invalid_key" or _is_short_vector(detail):
         place = place[:-1]
     if place[:1] in (("objects",), ("materials",)):
@@ -124,7 +124,7 @@ def _place(detail: ErrorDetails) -> Place:
 
 
 def _without_map(step: int | str) -> int | str:
-    """A texture `x_map` is a key `x` of scene files."""
+    """Return the key of a scene file: `x` for a texture `x_map`."""
     return step.removesuffix("_map") if isinstance(step, str) else step
 
 
@@ -137,7 +137,7 @@ def _is_extra(detail: ErrorDetails | str) -> TypeGuard[ErrorDetails]:
 
 
 def _model(location: Place) -> type[BaseModel]:
-    """The model that a key belongs to, by the location that pydantic gives it."""
+    """Return the model that a key belongs to, by the location that pydantic gives it."""
     table = str(location[0])
     if len(location) == 1:
         return SceneFields
@@ -156,7 +156,7 @@ def _keys(detail: ErrorDetails) -> tuple[str, ...]:
 
 
 def _path(place: Place, data: Mapping[str, Any]) -> str:
-    """A place as users write it: objects[2] ("left ball").radius."""
+    """Return a place as users write it: objects[2] ("left ball").radius."""
     path = ""
     for depth, step in enumerate(place):
         if isinstance(step, int) and (depth > 1 or place[0] == "objects"):
@@ -273,7 +273,7 @@ def _wording(place: Place, detail: ErrorDetails) -> str:
 
 
 def _shown(value: Any) -> str:
-    """A value of a scene file, short enough for a message."""
+    """Return a value of a scene file, short enough for a message."""
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, int):

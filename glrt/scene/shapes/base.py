@@ -17,7 +17,7 @@ UP = np.array([0.0, 1.0, 0.0])
 
 
 class Object(Tagged):
-    """A shape: a name, a material, and answers about its geometry."""
+    """A shape with a name and a material, and methods for its geometry."""
 
     name: Name | None = Field(None, description="name of the object in messages and the window")
     material: Name = Field(description="name of one of the materials")
@@ -30,75 +30,80 @@ class Object(Tagged):
         False, description="whether it is left out of the picture"
     )
 
-    has_inside: ClassVar[bool]  # whether it can be of glass
-    anchor: ClassVar[str]  # the field that holds a point of it: moving the shape moves that
+    has_inside: ClassVar[bool]  # whether the kind can be of glass
+    anchor: ClassVar[str]  # the field with a point that moves with the shape
     points: ClassVar[tuple[str, ...]] = ()  # fields with further points, which move along
     extents: ClassVar[tuple[str, ...]]  # the fields, lengths or vectors, that grow with its size
 
     @property
     def is_one_sided(self) -> bool:
-        """Whether it emits from its front alone."""
+        """Whether the shape emits from its front alone."""
         return False
 
     @property
     def encloses(self) -> bool:
-        """Whether this one can be of glass."""
+        """Whether this shape encloses a volume, so that it can be of glass."""
         return self.has_inside
 
     @property
     @abstractmethod
     def middle(self) -> Vector:
-        """The point that it is moved by and scaled about."""
+        """The point by which the shape is moved and about which it is scaled."""
 
     @property
     @abstractmethod
     def reach(self) -> float:
-        """The radius of a ball about the middle that holds it; infinite where none does."""
+        """Radius of a ball about the middle that holds the shape; infinite if none does."""
 
     @property
     @abstractmethod
     def row(self) -> list[float]:
-        """Its numbers, as `distances` takes them."""
+        """Numbers of the shape, as `bounds` and `distances` take them."""
 
     @abstractmethod
     def outline(self, about: Array) -> Array:
-        """(n, k): rows that say where it is, relative to `about`, (3,), in any order.
+        """Return rows, (n, k), that describe the shape relative to `about`, (3,), in any order.
 
-        Shapes of a kind are equal where these are, whichever way they were given.
+        Shapes of a kind are equal if these rows are, whichever way the shapes were given.
         """
 
     @property
     @abstractmethod
     def polygons(self) -> Array:
-        """(n, k, 3): its flat surfaces in scene units, convex; none without flat ones or without
-        end. The corners go round; a triangle among quads repeats its last one.
+        """Flat surfaces as convex polygons in scene units, (n, k, 3), with corners in order round.
+
+        Round surfaces and infinite planes have none. A triangle among quads repeats its last
+        corner.
         """
 
     @property
     @abstractmethod
     def faces(self) -> Faces | None:
-        """Its flat faces, or strips in place of round ones; None for a ball.
+        """Flat faces, or strips in place of round ones; None for a ball.
 
-        A window draws its outline by them.
+        A window draws the shape's outline by them.
         """
 
     @classmethod
     @abstractmethod
     def example(cls, place: Array, size: float) -> dict[str, Any]:
-        """Fields of a new one about a place, (3,), that reaches about `size` from there.
+        """Return fields of a new shape about a place, (3,), that reaches about `size` from there.
 
-        Empty for a kind that needs a file.
+        They are empty for a kind that needs a file.
         """
 
     @staticmethod
     @abstractmethod
     def bounds(rows: Array) -> tuple[Array, Array]:
-        """Corners of axis-aligned boxes around n shapes, (n, 3) each; infinite around what is."""
+        """Return low and high corners of boxes around n shapes, (n, 3) each; infinite for planes.
+
+        The boxes are aligned with the axes.
+        """
 
     @staticmethod
     @abstractmethod
     def distances(rows: Array, origin: Array, direction: Array) -> Array:
-        """(n,): how far a ray goes to each of n shapes; inf for a miss and for what is behind.
+        """Return how far a ray goes to each of n shapes, (n,); inf for a miss or a shape behind.
 
         Or n rays, (n, 3) each, to one shape.
         """
@@ -108,16 +113,16 @@ NO_POLYGONS = np.zeros((0, 3, 3))
 
 
 class Cornerless(Object):
-    """A round shape, or one without end."""
+    """A shape without flat surfaces that end: it is round or infinite."""
 
     @property
     def polygons(self) -> Array:
-        """None."""
+        """No polygons, (0, 3, 3)."""
         return NO_POLYGONS
 
 
 class Sided(Object):
-    """A shape whose front can emit alone."""
+    """A shape that can emit from its front alone."""
 
     emission_side: Annotated[Literal["both", "front"], Editable(Cost.RECOMPILE)] = Field(
         "both",
@@ -126,15 +131,15 @@ class Sided(Object):
 
     @property
     def is_one_sided(self) -> bool:
-        """Whether it emits from its front alone."""
+        """Whether the shape emits from its front alone."""
         return self.emission_side == "front"
 
 
-_CORNERS = 12  # of a polygon in a circle
+_CORNERS = 12  # corners of a polygon in a circle
 
 
 def ring(center: Array, normal: Array, radius: float) -> Array:
-    """A polygon in a circle, (_CORNERS, 3)."""
+    """Return a regular polygon in a circle, (_CORNERS, 3)."""
     u = np.cross(normal, np.eye(3)[np.abs(normal).argmin()])
     u /= np.linalg.norm(u)
     angles = 2 * math.pi * np.arange(_CORNERS)[:, None] / _CORNERS
@@ -143,21 +148,21 @@ def ring(center: Array, normal: Array, radius: float) -> Array:
 
 
 def unsigned(normal: Vector) -> Array:
-    """The unit vector that a normal and its opposite share, (3,)."""
+    """Return the unit vector that a normal and its opposite share, (3,)."""
     unit: Array = np.array(normal) / np.linalg.norm(normal)
     return unit if unit[np.abs(unit).argmax()] > 0 else -unit
 
 
 def dots(vectors: Array, direction: Array) -> Array:
-    """(n,): of n vectors and a direction, or of each with one of n directions."""
+    """Return dot products, (n,), of n vectors with a direction, or with n directions."""
     products: Array = (vectors * direction).sum(axis=-1)
     return products
 
 
 def along_and_rest(rows: Array, origin: Array, direction: Array) -> tuple[Array, Array]:
-    """(n,): how far a ray goes to the middle of its chord through n balls, and half the chord.
+    """Return how far a ray goes to the middle of its chord through n balls, and half the chord.
 
-    `rows` are centre and radius; the half chord is NaN for a ray that misses.
+    Both are (n,). `rows` are centre and radius; the half chord is NaN for a ray that misses.
     """
     to_center = rows[:, :3] - origin
     along = dots(to_center, direction)
@@ -166,6 +171,6 @@ def along_and_rest(rows: Array, origin: Array, direction: Array) -> tuple[Array,
 
 
 def to_planes(points: Array, normals: Array, origin: Array, direction: Array) -> Array:
-    """(n,): how far a ray goes to planes by points and normals, (n, 3) each; inf behind it."""
+    """Return how far a ray goes to planes by points and normals, (n, 3) each; inf behind it."""
     distances: Array = ((points - origin) * normals).sum(axis=1) / dots(normals, direction)
     return np.where(distances > 0, distances, math.inf)

@@ -1,4 +1,4 @@
-"""Shapes with flat faces and edges that enclose a volume: boxes."""
+"""Boxes, along the axes or turned."""
 
 import math
 from typing import TYPE_CHECKING, Any, Literal, Self
@@ -53,39 +53,39 @@ class Box(Object):
 
     @property
     def middle(self) -> Vector:
-        """Its centre."""
+        """Centre of the box."""
         x, y, z = (np.array(self.min) + np.array(self.max)) / 2
         return (float(x), float(y), float(z))
 
     @property
     def halves(self) -> Array:
-        """Half of its size along each of its axes, (3,)."""
+        """Half of the box's size along each of its axes, (3,)."""
         halves: Array = (np.array(self.max) - np.array(self.min)) / 2
         return halves
 
     @property
     def axes(self) -> Array:
-        """The directions of its edges, a row each, (3, 3)."""
+        """Unit directions of the edges as rows, (3, 3)."""
         return rotation(self.rotate).T
 
     @property
     def reach(self) -> float:
-        """Half of its diagonal."""
+        """Half of the diagonal."""
         return float(np.linalg.norm(self.halves))
 
     @property
     def row(self) -> list[float]:
-        """Centre, halves and axes."""
+        """Centre, halves and axes, 15 numbers."""
         return [*self.middle, *map(float, self.halves), *map(float, self.axes.ravel())]
 
     def outline(self, about: Array) -> Array:
-        """Its corners."""
+        """Return the corners of the box relative to `about`, (8, 3)."""
         corners: Array = self.polygons[:2].reshape(-1, 3) - about
         return corners
 
     @property
     def polygons(self) -> Array:
-        """Its faces, two opposite ones after the other."""
+        """The six faces, (6, 4, 3); opposite ones follow each other."""
         edges = self.axes * self.halves[:, None]
         faces = [
             side * edges[axis] + np.array([-u - v, u - v, u + v, v - u])
@@ -98,23 +98,23 @@ class Box(Object):
 
     @property
     def faces(self) -> Faces:
-        """Six."""
+        """The six faces."""
         return box_faces(np.array(self.middle), self.axes * self.halves[:, None])
 
     @classmethod
     def example(cls, place: Array, size: float) -> dict[str, Any]:
-        """A cube."""
+        """Return the fields of a cube."""
         return {"min": place - size, "max": place + size}
 
     @staticmethod
     def bounds(rows: Array) -> tuple[Array, Array]:
-        """Boxes around the corners."""
+        """Return low and high corners of boxes around the corners, (n, 3) each."""
         half = (np.abs(rows[:, 6:].reshape(-1, 3, 3)) * rows[:, 3:6, None]).sum(axis=1)
         return rows[:, :3] - half, rows[:, :3] + half
 
     @staticmethod
     def distances(rows: Array, origin: Array, direction: Array) -> Array:
-        """To the near side; from inside to the far side."""
+        """Return the distances to the near side, or from inside to the far side, (n,)."""
         center, halves, axes = rows[:, :3], rows[:, 3:6], rows[:, 6:].reshape(-1, 3, 3)
         start = (axes * (origin - center)[:, None]).sum(axis=2)
         along = (axes * direction[..., None, :]).sum(axis=2)
@@ -125,12 +125,12 @@ class Box(Object):
 
 
 def nearest_of_two(near: Array, far: Array) -> Array:
-    """(n,): of where rays enter and leave, what lies ahead; inf where `far` is behind."""
+    """Return where rays enter, or leave from inside, (n,); inf where `far` is behind."""
     return np.where(far <= 0, math.inf, np.where(near > 0, near, far))
 
 
 def rotation(degrees: Vector) -> Array:
-    """Rz Ry Rx, which turns columns by angles in degrees; exact for multiples of 90."""
+    """Return Rz Ry Rx, (3, 3), to turn columns by angles in degrees; exact at multiples of 90."""
     (sx, cx), (sy, cy), (sz, cz) = map(_sine_and_cosine, degrees)
     about_x = np.array([[1, 0, 0], [0, cx, -sx], [0, sx, cx]])
     about_y = np.array([[cy, 0, sy], [0, 1, 0], [-sy, 0, cy]])

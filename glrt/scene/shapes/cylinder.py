@@ -13,7 +13,7 @@ from glrt.scene.values import SMALLEST, Length, Number, Triple, Vector
 
 if TYPE_CHECKING:
     _Ended = Object
-else:  # a field whose name is a word of Python
+else:  # a field whose name is a keyword of Python
     _Ended = create_model(
         "_Ended",
         __base__=Object,
@@ -25,7 +25,7 @@ else:  # a field whose name is a word of Python
 class Cylinder(_Ended):
     """A round wall between two ends; with caps, its inside can be of glass.
 
-    Python code gives `from_`, since `from` is a word of the language.
+    Python code gives `from_`, since `from` is a keyword of the language.
     """
 
     shape: Literal["cylinder"] = Field("cylinder", description="the kind of shape")
@@ -70,52 +70,52 @@ class Cylinder(_Ended):
 
     @property
     def from_(self) -> Vector:
-        """The middle of one end."""
+        """Middle of one end."""
         start: Vector = getattr(self, "from")
         return start
 
     @property
     def encloses(self) -> bool:
-        """With caps."""
+        """Whether the cylinder has caps."""
         return self.capped
 
     @property
     def middle(self) -> Vector:
-        """Halfway between its ends."""
+        """The point halfway between the ends."""
         x, y, z = (np.array(self.from_) + np.array(self.to)) / 2
         return (float(x), float(y), float(z))
 
     @property
     def half(self) -> float:
-        """Half of its height."""
+        """Half of the height."""
         return math.dist(self.from_, self.to) / 2
 
     @property
     def axis(self) -> Array:
-        """The unit vector from one end to the other, (3,)."""
+        """Unit vector from one end to the other, (3,)."""
         along = np.subtract(self.to, self.from_)
         unit: Array = along / np.linalg.norm(along)
         return unit
 
     @property
     def reach(self) -> float:
-        """From its middle to a rim."""
+        """Distance from the middle to a rim."""
         return math.hypot(self.half, self.radius)
 
     @property
     def row(self) -> list[float]:
-        """Middle, axis, half of its height, radius, and 1 with caps."""
+        """Middle, axis, half of the height, radius, and 1 with caps: 9 numbers."""
         axis = map(float, self.axis)
         return [*self.middle, *axis, self.half, self.radius, float(self.capped)]
 
     def outline(self, about: Array) -> Array:
-        """Its ends, radius and caps."""
+        """Return ends relative to `about`, radius and caps, (2, 5)."""
         ends = np.array([self.from_, self.to]) - about
         return np.column_stack([ends, np.full((2, 2), [self.radius, self.capped])])
 
     @property
     def polygons(self) -> Array:
-        """Its caps."""
+        """The caps as polygons, (2, k, 3); none for an open cylinder."""
         if not self.capped:
             return NO_POLYGONS
         return np.array(
@@ -124,7 +124,7 @@ class Cylinder(_Ended):
 
     @property
     def faces(self) -> Faces:
-        """Its wall in strips, and its caps."""
+        """The wall in strips, and the caps."""
         low, high = np.array(self.from_), np.array(self.to)
         axis = (high - low) / np.linalg.norm(high - low)
         below = circle(low, axis, self.radius)[:, 0]
@@ -146,19 +146,19 @@ class Cylinder(_Ended):
 
     @classmethod
     def example(cls, place: Array, size: float) -> dict[str, Any]:
-        """An upright one, twice as high as wide."""
+        """Return the fields of an upright cylinder, twice as high as wide."""
         return {"from": place - size * UP, "to": place + size * UP, "radius": size / 2}
 
     @staticmethod
     def bounds(rows: Array) -> tuple[Array, Array]:
-        """Boxes around both rims."""
+        """Return low and high corners of boxes around both rims, (n, 3) each."""
         axis, half, radius = rows[:, 3:6], rows[:, 6:7], rows[:, 7:8]
         reach = half * np.abs(axis) + radius * np.sqrt(np.maximum(1 - axis**2, 0))
         return rows[:, :3] - reach, rows[:, :3] + reach
 
     @staticmethod
     def distances(rows: Array, origin: Array, direction: Array) -> Array:
-        """To the near side; from inside, or through an open end, to the far side."""
+        """Return distances to the near side; to the far side from inside or through open ends."""
         axis, half = rows[:, 3:6], rows[:, 6]
         start, heading = ((origin - rows[:, :3]) * axis).sum(axis=1), dots(axis, direction)
         near, far = _to_walls(rows, origin, direction)
@@ -171,7 +171,7 @@ class Cylinder(_Ended):
 
 
 def _to_walls(rows: Array, origin: Array, direction: Array) -> tuple[Array, Array]:
-    """Where rays enter and leave walls without ends; NaN for a miss."""
+    """Return where rays enter and leave walls without ends, (n,) each; NaN for a miss."""
     axis, radius = rows[:, 3:6], rows[:, 7]
     offset = origin - rows[:, :3]
     beside = offset - (offset * axis).sum(axis=1)[:, None] * axis

@@ -19,7 +19,7 @@ from glrt.scene.values import Direction, Length, Number, Triple, Vector
 
 
 class Disk(Sided):
-    """A flat disk about its normal."""
+    """A flat disk, perpendicular to its normal."""
 
     shape: Literal["disk"] = Field("disk", description="the kind of shape")
     center: Vector = Field(description="centre, x y z in scene units")
@@ -47,51 +47,51 @@ class Disk(Sided):
 
     @property
     def middle(self) -> Vector:
-        """Its centre."""
+        """Centre of the disk."""
         return self.center
 
     @property
     def reach(self) -> float:
-        """Its radius."""
+        """Radius of the disk."""
         return self.radius
 
     @property
     def row(self) -> list[float]:
-        """Centre, normal and radius."""
+        """Centre, normal and radius: 7 numbers."""
         return [*self.center, *self.normal, self.radius]
 
     def outline(self, about: Array) -> Array:
-        """Centre, radius and normal."""
+        """Return centre relative to `about`, radius and normal, (1, 7)."""
         place = np.array(self.center) - about
         return np.array([[*place, self.radius, *unsigned(self.normal)]])
 
     @property
     def polygons(self) -> Array:
-        """One in its rim."""
+        """One polygon in the rim, (1, k, 3)."""
         normal = np.array(self.normal) / np.linalg.norm(self.normal)
         return ring(np.array(self.center), normal, self.radius)[None]
 
     @property
     def faces(self) -> Faces:
-        """One, with many corners."""
+        """One face, with many corners."""
         axis = np.array(self.normal) / np.linalg.norm(self.normal)
         return flat_face(circle(np.array(self.center), axis, self.radius)[:, 0])
 
     @classmethod
     def example(cls, place: Array, size: float) -> dict[str, Any]:
-        """A disk that faces up."""
+        """Return the fields of a disk that faces up."""
         return {"center": place, "normal": UP, "radius": size}
 
     @staticmethod
     def bounds(rows: Array) -> tuple[Array, Array]:
-        """Boxes around the rim."""
+        """Return low and high corners of boxes around the rim, (n, 3) each."""
         normal = rows[:, 3:6] / np.linalg.norm(rows[:, 3:6], axis=1)[:, None]
         reach = rows[:, 6:] * np.sqrt(np.maximum(1 - normal**2, 0))
         return rows[:, :3] - reach, rows[:, :3] + reach
 
     @staticmethod
     def distances(rows: Array, origin: Array, direction: Array) -> Array:
-        """From either side."""
+        """Return the distances to disks from either side, (n,); inf for a miss."""
         distance = to_planes(rows[:, :3], rows[:, 3:6], origin, direction)
         offset = origin + distance[:, None] * direction - rows[:, :3]
         return np.where(np.linalg.norm(offset, axis=1) <= rows[:, 6], distance, math.inf)

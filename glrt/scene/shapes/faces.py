@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-STEPS = 64  # of a circle
+STEPS = 64  # segments of a circle
 
 
 class Faces(NamedTuple):
@@ -27,7 +27,7 @@ class Faces(NamedTuple):
 
 
 def circle(center: Array, axis: Array, radius: float) -> Array:
-    """Segments of a circle about an axis of length 1, (STEPS, 2, 3)."""
+    """Return segments of a circle about an axis of length 1, (STEPS, 2, 3)."""
     aside = np.eye(3)[np.argmin(np.abs(axis))]
     u = np.cross(axis, aside)
     u /= np.linalg.norm(u)
@@ -37,7 +37,7 @@ def circle(center: Array, axis: Array, radius: float) -> Array:
 
 
 def flat_face(corners: Array) -> Faces:
-    """One flat face with these corners: each edge is a rim."""
+    """Return one flat face with these corners; each edge is a rim."""
     count = len(corners)
     edges = np.stack([np.arange(count), (np.arange(count) + 1) % count], axis=1)
     neighbours, turned = np.tile([0, -1], (count, 1)), np.zeros(count, bool)
@@ -45,7 +45,7 @@ def flat_face(corners: Array) -> Faces:
 
 
 def box_faces(middle: Array, halves: Array) -> Faces:
-    """The faces of a box by its middle and half edges, a row each."""
+    """Return the faces of a box by its middle and half edges, a row each."""
     signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
     corners = middle + signs @ halves
     square = np.array(
@@ -58,11 +58,11 @@ def box_faces(middle: Array, halves: Array) -> Faces:
 def faces_of_triangles(
     vertices: Array, triangles: NDArray[np.intp], flat: NDArray[np.intp] | None = None
 ) -> Faces:
-    """Triangles (n, 3) as faces; triangles with one number in `flat` (n,) are one face."""
+    """Return triangles, (n, 3), as faces; with one number in `flat`, (n,), they are one face."""
     a, b, c = (vertices[triangles[:, k]] for k in range(3))
     sides = np.concatenate([triangles[:, [k, (k + 1) % 3]] for k in range(3)])
     owners = np.tile(np.arange(len(triangles)), 3)
-    kept = sides[:, 0] != sides[:, 1]  # of triangles that are no lines
+    kept = sides[:, 0] != sides[:, 1]  # sides that have a length
     sides, owners = sides[kept], owners[kept]
     goes_up = sides[:, 0] < sides[:, 1]
     sides = np.sort(sides, axis=1)
@@ -83,7 +83,7 @@ def faces_of_triangles(
 
 
 def welded(vertices: Array) -> NDArray[np.intp]:
-    """The first vertex at the place of each one, (v,): so seams are no rims."""
+    """Return the first vertex at the place of each one, (v,), so that seams are no rims."""
     _, first, which = np.unique(vertices, axis=0, return_index=True, return_inverse=True)
     same: NDArray[np.intp] = first[which.reshape(-1)]
     return same

@@ -11,7 +11,7 @@ from glrt.scene.shapes.kinds import Shape
 from glrt.scene.shapes.plane import Plane
 
 STEPS = 9  # points of a face along each of its axes
-INNER = 0.98  # of a face that they lie on: edges may touch
+INNER = 0.98  # share of a face that they cover: edges may touch
 
 Floats = NDArray[np.float64]
 
@@ -20,13 +20,13 @@ class _Face(NamedTuple):
     """A parallelogram, center + s u + t v for s and t from -1 to 1, or the ellipse in it."""
 
     center: Floats
-    u: Floats  # (3,); 0 of a plane, which has no end
+    u: Floats  # (3,); 0 for a plane, which has no end
     v: Floats
     normal: Floats  # unit
     is_round: bool
 
     def points(self) -> Floats:
-        """Points of the face, (n, 3)."""
+        """Return points of the face, (n, 3)."""
         steps = np.linspace(-INNER, INNER, STEPS)
         s, t = (axis.ravel() for axis in np.meshgrid(steps, steps))
         kept = s * s + t * t <= INNER**2 if self.is_round else np.full(s.shape, True)
@@ -34,7 +34,7 @@ class _Face(NamedTuple):
         return points
 
     def holds(self, points: Floats) -> bool:
-        """Whether some points of its plane, (n, 3), lie in the face."""
+        """Return whether some points of its plane, (n, 3), lie in the face."""
         if not self.u.any():
             return True
         s, t = ((points - self.center) @ axis / (axis @ axis) for axis in (self.u, self.v))
@@ -43,7 +43,7 @@ class _Face(NamedTuple):
 
 
 def share_a_face(first: Shape, second: Shape, slack: float) -> bool:
-    """Whether flat faces of two solids overlap in one plane, within `slack` of their size."""
+    """Return whether flat faces of two solids overlap in a plane, within `slack` of their size."""
     pairs = ((a, b) for a in _faces(first) for b in _faces(second))
     return any(_overlap(a, b, slack) for a, b in pairs)
 

@@ -23,12 +23,12 @@ class Polygons(NamedTuple):
         return self.corners.min(axis=1), self.corners.max(axis=1)
 
     def of(self, rows: Any) -> "Polygons":
-        """Some of them."""
+        """Return some of the polygons."""
         return Polygons(self.corners[rows], self.owner[rows])
 
     @property
     def normals(self) -> Floats:
-        """(n, 3), unit, of either sign; 0 where corners lie on a line."""
+        """Unit normals, (n, 3), of either sign; 0 if the corners lie on a line."""
         first = self.corners[:, :1]
         # The corners go round: the sum of these products is twice the area.
         across = np.cross(self.corners - first, np.roll(self.corners, -1, axis=1) - first)
@@ -39,7 +39,7 @@ class Polygons(NamedTuple):
 
 
 def polygons_of(thing: Object, number: int, low: Floats, high: Floats) -> Polygons:
-    """The flat surfaces of an object that touch a box, (3,) each corner; none of a plane."""
+    """Return the flat surfaces of an object that touch a box, (3,) each corner; none of a plane."""
     found = thing.polygons
     near = (found.max(axis=1) >= low).all(axis=1) & (found.min(axis=1) <= high).all(axis=1)
     some = found[near]
@@ -47,7 +47,7 @@ def polygons_of(thing: Object, number: int, low: Floats, high: Floats) -> Polygo
 
 
 def joined(parts: list[Polygons]) -> Polygons:
-    """All of them, with as many corners each as the one that has most."""
+    """Return all polygons; each is padded to the corners of the one that has most."""
     most = max((part.corners.shape[1] for part in parts), default=3)
     none = [Polygons(np.zeros((0, most, 3)), np.zeros(0, np.int64))]
     alike = [

@@ -1,8 +1,8 @@
 """Every kind of shape, in the order of the kernel's numbering.
 
 Each is a frozen model with its geometry for the host, in a file of its own. The kernel's part of a
-shape is in shaders_glsl/shapes/ and glrt/packing/shapes.py. docs/extending.md says how a kind is
-added.
+shape is in shaders_glsl/shapes/ and glrt/packing/shapes.py. docs/extending.md explains how to add a
+kind.
 """
 
 from inspect import isabstract

@@ -1,4 +1,4 @@
-"""Triangle meshes in a scene: which, where, and with which normals."""
+"""Triangle meshes in a scene: file and part, placement, and normals."""
 
 import math
 from collections.abc import Sequence
@@ -15,7 +15,7 @@ from glrt.scene.shapes.faces import Faces, box_faces, faces_of_triangles, welded
 from glrt.scene.values import LARGEST, SMALLEST, Coordinate, Name, Number, Triple, Vector
 from glrt.settings import Cost, Editable
 
-MOST_OUTLINED = 200_000  # triangles whose edges are looked at for an outline
+MOST_OUTLINED = 200_000  # triangles whose edges may make an outline
 
 
 def _three(value: Any) -> Any:
@@ -56,13 +56,14 @@ Matrix = Annotated[tuple[_Row, _Row, _Row, _Row], AfterValidator(_with_a_volume)
 
 
 class Mesh(Sided):
-    """Triangles of a file: taken by its matrix, then scaled, then turned, then moved.
+    """Triangles of a file, transformed by its matrix, then scaled, then turned, then moved.
 
     Python code may give arrays instead, `glrt.Mesh(vertices, faces, normals=None, colors=None,
-    uv=None, material=...)`: places of vertices, (v, 3); the numbers of those of each triangle,
-    (n, 3), counter-clockwise seen from outside; normals at the vertices, (v, 3); linear colours
-    there, (v, 3) of 0 to 1, by which that of the material is multiplied; and texture coordinates
-    there, (v, 2), (0, 0) in the upper left of an image. Such a mesh is saved next to its scene.
+    uv=None, material=...)`. These are the places of vertices, (v, 3), and the numbers of each
+    triangle's vertices, (n, 3), counter-clockwise seen from outside. At each vertex there may be
+    normals, (v, 3); linear colours, (v, 3) of 0 to 1, by which the colour of the material is
+    multiplied; and texture coordinates, (v, 2), with (0, 0) in the upper left of an image. Such a
+    mesh is saved next to its scene.
     """
 
     shape: Literal["mesh"] = Field("mesh", description="the kind of shape")
@@ -129,7 +130,7 @@ class Mesh(Sided):
     else:
 
         def __init__(self, vertices=None, faces=None, normals=None, colors=None, uv=None, **fields):
-            """Raises ValueError, which says what is wrong with which row of an array."""
+            """Take arrays or a file; raises ValueError, which says what is wrong with which row."""
             if vertices is not None or faces is not None:
                 if "file" in fields:
                     raise ValueError("a mesh is given by arrays or by a file, not by both")
@@ -138,7 +139,7 @@ class Mesh(Sided):
 
     @property
     def triangles(self) -> TriangleMesh:
-        """In the coordinates of the file; ValueError before it is read, or without the part."""
+        """Triangles of the part in file coordinates; ValueError if unread, or without the part."""
         mesh = self.triangles_of_file
         if self.part is None:
             return mesh
@@ -148,20 +149,20 @@ class Mesh(Sided):
 
     @property
     def triangles_of_file(self) -> TriangleMesh:
-        """The triangles of all parts; ValueError before the file is read."""
+        """Triangles of all parts; ValueError before the file is read."""
         if self.file.triangles is None:
             raise ValueError(f"the file {self.file.file} was not read")
         return self.file.triangles
 
     @property
     def linear(self) -> Array:
-        """(3, 3): from the axes of the file to those of the scene."""
+        """Matrix from the axes of the file to those of the scene, (3, 3)."""
         turned: Array = self._turned() @ self._given()[:, :3]
         return turned
 
     @property
     def origin(self) -> Array:
-        """(3,): where the origin of the file lies."""
+        """Where the origin of the file lies in the scene, (3,)."""
         moved: Array = self._turned() @ self._given()[:, 3] + np.array(self.translate)
         return moved
 
@@ -174,24 +175,27 @@ class Mesh(Sided):
 
     @property
     def world_vertices(self) -> Array:
-        """(v, 3), in scene units."""
+        """Vertices in scene units, (v, 3)."""
         vertices: Array = self.triangles.vertices @ self.linear.T + self.origin
         return vertices
 
     @property
     def world_normals(self) -> Array:
-        """(v, 3), of any length: normals turn by the inverse, transposed; outwards as they were."""
+        """Normals in the scene, (v, 3), of any length: turned by the inverse, transposed.
+
+        They point outwards if the normals of the file do.
+        """
         turned: Array = self.triangles.shading_normals @ np.linalg.inv(self.linear)
         return turned
 
     @property
     def is_upright(self) -> bool:
-        """Whether it is not mirrored."""
+        """Whether the mesh is not mirrored."""
         return bool(np.linalg.det(self.linear) > 0)
 
     @property
     def middle(self) -> Vector:
-        """The middle of the box around it, in its own axes; before it is read, its origin."""
+        """Middle of the box around the mesh, in its own axes; its origin if it is unread."""
         center = self.origin
         if self.file.triangles is not None:
             low, high = self.triangles.box
@@ -201,7 +205,7 @@ class Mesh(Sided):
 
     @property
     def reach(self) -> float:
-        """To the farthest corner of that box."""
+        """Distance from the middle to the farthest corner of the mesh's box; 0 if unread."""
         if self.file.triangles is None:
             return 0.0
         low, high = self.triangles.box
@@ -211,11 +215,11 @@ class Mesh(Sided):
 
     @property
     def row(self) -> list[float]:
-        """Middle and radius of a ball that holds it."""
+        """Middle and radius of a ball that holds the mesh."""
         return [*self.middle, self.reach]
 
     def outline(self, about: Array) -> Array:
-        """Its triangles, (n, 9), each from its lowest corner on."""
+        """Return the triangles relative to `about`, (n, 9), each with its corners sorted."""
         corners = self.polygons - about
         order = np.lexsort(corners.transpose(2, 0, 1), axis=-1)
         rows: Array = np.take_along_axis(corners, order[..., None], axis=1).reshape(-1, 9)
@@ -223,13 +227,13 @@ class Mesh(Sided):
 
     @property
     def polygons(self) -> Array:
-        """Its triangles."""
+        """Triangles in scene units, (n, 3, 3)."""
         corners: Array = self.world_vertices[self.triangles.faces]
         return corners
 
     @property
     def faces(self) -> Faces:
-        """Its triangles, or the box around them if they are very many."""
+        """The triangles, or the box around them if they are more than MOST_OUTLINED."""
         triangles = self.triangles
         if len(triangles.faces) > MOST_OUTLINED:
             low, high = triangles.box
@@ -240,22 +244,22 @@ class Mesh(Sided):
 
     @classmethod
     def example(cls, place: Array, size: float) -> dict[str, Any]:
-        """Nothing: a mesh comes from a file."""
+        """Return no fields: a mesh comes from a file."""
         return {}
 
     @staticmethod
     def bounds(rows: Array) -> tuple[Array, Array]:
-        """Boxes around the ball."""
+        """Return low and high corners of boxes around balls, (n, 3) each."""
         return rows[:, :3] - rows[:, 3:], rows[:, :3] + rows[:, 3:]
 
     @staticmethod
     def distances(rows: Array, origin: Array, direction: Array) -> Array:
-        """To where rays enter the ball, 0 from inside: see `distance` for the triangles."""
+        """Return where rays enter the ball, (n,), 0 from inside; `distance` finds triangles."""
         along, rest = along_and_rest(rows, origin, direction)
         return np.where(along + rest > 0, np.maximum(along - rest, 0), math.inf)
 
     def distance(self, origin: Array, direction: Array) -> float:
-        """How far a ray goes to the nearest triangle; inf for a miss."""
+        """Return how far a ray goes to the nearest triangle; inf for a miss."""
         inverse = np.linalg.inv(self.linear)
         start, along = inverse @ (origin - self.origin), inverse @ direction
         mesh = self.triangles

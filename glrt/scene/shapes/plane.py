@@ -43,43 +43,43 @@ class Plane(Cornerless):
 
     @property
     def middle(self) -> Vector:
-        """The point that it is given by."""
+        """The point by which the plane is given."""
         return self.point
 
     @property
     def reach(self) -> float:
-        """No ball holds a plane."""
+        """Infinite: no ball holds a plane."""
         return math.inf
 
     @property
     def row(self) -> list[float]:
-        """Point and normal."""
+        """Point and normal: 6 numbers."""
         return [*self.point, *self.normal]
 
     def outline(self, about: Array) -> Array:
-        """Normal and height."""
+        """Return the normal and the height over `about`, (1, 4)."""
         normal = unsigned(self.normal)
         return np.array([[*normal, normal @ (np.array(self.point) - about)]])
 
     @property
     def faces(self) -> Faces:
-        """A square about its point, of edges of length 1: a plane has no end."""
+        """A square about its point, with edges of length 1: a plane has no end."""
         axis = np.array(self.normal) / np.linalg.norm(self.normal)
         ring = circle(np.array(self.point), axis, math.sqrt(0.5))
         return flat_face(ring[:: STEPS // 4, 0])
 
     @classmethod
     def example(cls, place: Array, size: float) -> dict[str, Any]:
-        """A floor below the place."""
+        """Return the fields of a floor below the place."""
         return {"point": place - size * UP, "normal": UP}
 
     @staticmethod
     def bounds(rows: Array) -> tuple[Array, Array]:
-        """Infinite."""
+        """Return infinite boxes, (n, 3) each corner."""
         endless = np.full((len(rows), 3), math.inf)
         return -endless, endless
 
     @staticmethod
     def distances(rows: Array, origin: Array, direction: Array) -> Array:
-        """From either side."""
+        """Return the distances to planes from either side, (n,); inf for a miss."""
         return to_planes(rows[:, :3], rows[:, 3:], origin, direction)

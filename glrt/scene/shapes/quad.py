@@ -54,7 +54,7 @@ class Quad(Sided):
 
     @property
     def middle(self) -> Vector:
-        """Where its diagonals cross."""
+        """The point where the diagonals cross."""
         x, y, z = np.array(self.corner) + np.add(self.edge_u, self.edge_v) / 2
         return (float(x), float(y), float(z))
 
@@ -66,43 +66,43 @@ class Quad(Sided):
 
     @property
     def row(self) -> list[float]:
-        """Corner and edges."""
+        """Corner and edges: 9 numbers."""
         return [*self.corner, *self.edge_u, *self.edge_v]
 
     def outline(self, about: Array) -> Array:
-        """Its corners."""
+        """Return the corners relative to `about`, (4, 3)."""
         corners: Array = self.polygons[0] - about
         return corners
 
     @property
     def polygons(self) -> Array:
-        """Itself."""
+        """The parallelogram itself, (1, 4, 3)."""
         u, v = np.array(self.edge_u), np.array(self.edge_v)
         corners: Array = np.array(self.corner) + np.array([[0 * u, u, u + v, v]])
         return corners
 
     @property
     def faces(self) -> Faces:
-        """One."""
+        """One face."""
         corner, u, v = np.array(self.corner), np.array(self.edge_u), np.array(self.edge_v)
         return flat_face(np.array([corner, corner + u, corner + u + v, corner + v]))
 
     @classmethod
     def example(cls, place: Array, size: float) -> dict[str, Any]:
-        """A square that faces up."""
+        """Return the fields of a square that faces up."""
         along, across = np.array([0.0, 0.0, size]), np.array([size, 0.0, 0.0])
         return {"corner": place - along - across, "edge_u": 2 * along, "edge_v": 2 * across}
 
     @staticmethod
     def bounds(rows: Array) -> tuple[Array, Array]:
-        """Boxes around the corners."""
+        """Return low and high corners of boxes around the corners, (n, 3) each."""
         u, v = rows[:, 3:6], rows[:, 6:]
         corners = rows[:, :3] + np.stack([0 * u, u, v, u + v])
         return corners.min(axis=0), corners.max(axis=0)
 
     @staticmethod
     def distances(rows: Array, origin: Array, direction: Array) -> Array:
-        """From either side."""
+        """Return the distances to quads from either side, (n,); inf for a miss."""
         corner, u, v = rows[:, :3], rows[:, 3:6], rows[:, 6:]
         normal = np.cross(u, v)
         distance = to_planes(corner, normal, origin, direction)

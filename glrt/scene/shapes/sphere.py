@@ -40,41 +40,41 @@ class Sphere(Cornerless):
 
     @property
     def middle(self) -> Vector:
-        """Its centre."""
+        """Centre of the sphere."""
         return self.center
 
     @property
     def reach(self) -> float:
-        """Its radius."""
+        """Radius of the sphere."""
         return self.radius
 
     @property
     def row(self) -> list[float]:
-        """Centre and radius."""
+        """Centre and radius: 4 numbers."""
         return [*self.center, self.radius]
 
     def outline(self, about: Array) -> Array:
-        """Centre and radius."""
+        """Return centre relative to `about`, and radius, (1, 4)."""
         return np.array([[*(np.array(self.center) - about), self.radius]])
 
     @property
     def faces(self) -> None:
-        """It is a ball."""
+        """None: a sphere has no flat faces."""
         return None
 
     @classmethod
     def example(cls, place: Array, size: float) -> dict[str, Any]:
-        """A ball of that radius."""
+        """Return the fields of a sphere with radius `size`."""
         return {"center": place, "radius": size}
 
     @staticmethod
     def bounds(rows: Array) -> tuple[Array, Array]:
-        """Boxes around the ball."""
+        """Return low and high corners of boxes around the spheres, (n, 3) each."""
         return rows[:, :3] - rows[:, 3:], rows[:, :3] + rows[:, 3:]
 
     @staticmethod
     def distances(rows: Array, origin: Array, direction: Array) -> Array:
-        """To the near side; from inside to the far side."""
+        """Return the distances to the near side, or from inside to the far side, (n,)."""
         along, rest = along_and_rest(rows, origin, direction)
         near, far = along - rest, along + rest
         return np.where(near > 0, near, np.where(far > 0, far, math.inf))

@@ -1,4 +1,4 @@
-"""How texture coordinates run over flat shapes."""
+"""Texture coordinates of flat shapes."""
 
 from typing import Any, NamedTuple
 
@@ -13,7 +13,7 @@ Array = np.ndarray[Any, np.dtype[np.float64]]
 
 
 class TextureAxes(NamedTuple):
-    """u and v of a point p are u . (p - origin) and v . (p - origin)."""
+    """Axes of texture coordinates: a point p has u . (p - origin) and v . (p - origin)."""
 
     origin: Array
     u: Array
@@ -21,10 +21,10 @@ class TextureAxes(NamedTuple):
 
 
 def texture_axes(shape: Shape) -> TextureAxes | None:
-    """Axes of a quad, a disk or a plane; None for other shapes.
+    """Return the axes of a quad, a disk or a plane; None for other shapes.
 
-    Of a quad along its edges from its corner; of a disk over the square around it; of a plane in
-    scene units from its point.
+    The axes of a quad run along its edges from its corner, those of a disk over the square around
+    it, and those of a plane in scene units from its point.
     """
     if isinstance(shape, Quad):
         edge_u, edge_v = np.array(shape.edge_u, np.float64), np.array(shape.edge_v, np.float64)
@@ -43,7 +43,7 @@ def texture_axes(shape: Shape) -> TextureAxes | None:
 
 
 def _across(normal: Any) -> tuple[Array, Array]:
-    """Unit vectors along u and v: v leads down, or on a floor and under a ceiling along z."""
+    """Return unit vectors along u and v: v leads down, or along z on floors and ceilings."""
     n = np.array(normal, np.float64) / np.linalg.norm(normal)
     down = np.array([0.0, -1.0, 0.0])
     if abs(n[1]) > _STEEPEST:
@@ -53,4 +53,4 @@ def _across(normal: Any) -> tuple[Array, Array]:
     return np.cross(n, v), v
 
 
-_STEEPEST = 0.999  # |y| of the normal of what counts as a wall
+_STEEPEST = 0.999  # largest |y| of the normal of a wall

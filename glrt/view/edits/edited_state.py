@@ -1,4 +1,4 @@
-"""What the window edits, as one value."""
+"""The scene and settings that the window edits, as one immutable value."""
 
 from dataclasses import dataclass, replace
 from typing import Any
@@ -10,32 +10,32 @@ from glrt.settings import Aov, Settings, settings_for
 
 @dataclass(frozen=True)
 class State:
-    """What is edited, and what undo brings back."""
+    """The edited scene and settings; undo restores an earlier state."""
 
     scene: Scene
     settings: Settings
-    by_length: bool = False  # layers by the length of paths, so that bounces are weighed
+    by_length: bool = False  # whether layers hold path lengths, so that bounces are weighted
 
     @property
     def layering(self) -> Layering:
-        """What the layers of the film are to hold, if it keeps any."""
+        """Content of the film's layers, if it has any: path lengths or light groups."""
         return "lengths" if self.by_length else "groups"
 
     def moves(self, before: Scene) -> bool:
-        """Whether the scene differs from another one in what lies where."""
+        """Whether the camera or the objects differ from those of another scene."""
         return (self.scene.camera, self.scene.objects) != (before.camera, before.objects)
 
     def showing(self, *aovs: Aov) -> "State":
-        """With AOVs beside those of the settings."""
+        """Return the state with more AOVs than those of its settings."""
         settings = settings_for(self.settings, aov=(*self.settings.aov, *aovs))
         return replace(self, settings=settings)
 
     def sized(self, width: int, height: int) -> "State":
-        """At another size."""
+        """Return the state with another size of the picture, in pixels."""
         size: dict[str, Any] = {"width": width, "height": height}
         return replace(self, settings=settings_for(self.settings, **size))
 
     def coarser(self, factor: float) -> "State":
-        """With so many pixels, in width and height, as one."""
+        """Return the state with width and height divided by `factor`; unchanged up to 1."""
         width, height = (max(1, round(side / factor)) for side in self.settings.size)
         return self.sized(width, height) if factor > 1 else self

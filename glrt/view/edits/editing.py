@@ -1,4 +1,4 @@
-"""The scene and the settings as they are edited, with what undo takes back."""
+"""Editing of a scene and its settings, with undo."""
 
 from dataclasses import replace
 from typing import Any
@@ -11,27 +11,27 @@ from glrt.view.edits.history import History
 
 
 class Editing:
-    """What is wanted now. Who renders it takes it up from frame to frame."""
+    """The requested scene and settings, which a renderer follows from frame to frame."""
 
     def __init__(self, opened: State) -> None:
-        """Nothing to take back yet."""
+        """Begin with the opened state and an empty history."""
         self.state = self.opened = opened
         self.history: History[State] = History()
-        self.problem = ""  # the last refusal
+        self.problem = ""  # message of the last refused edit
 
     @property
     def scene(self) -> Scene:
-        """The scene as edited."""
+        """The edited scene."""
         return self.state.scene
 
     @property
     def settings(self) -> Settings:
-        """The settings as edited, at full size."""
+        """The edited settings, at full picture size."""
         return self.state.settings
 
     @property
     def by_length(self) -> bool:
-        """Whether the film is to keep the light of each bounce apart."""
+        """Whether the film keeps the light of each bounce in a separate layer."""
         return self.state.by_length
 
     @by_length.setter
@@ -39,7 +39,7 @@ class Editing:
         self._take(replace(self.state, by_length=wanted))
 
     def edit(self, scene: Scene | None = None, gesture: str = "", **changes: Any) -> None:
-        """Take another scene or settings from the next frame on; a refusal is told, not raised."""
+        """Change scene or settings from the next frame on; a refusal sets `problem`, not raises."""
         try:
             settings = settings_for(self.settings, **changes)
         except GlrtError as error:
@@ -48,11 +48,11 @@ class Editing:
         self._take(replace(self.state, scene=scene or self.scene, settings=settings), gesture)
 
     def undo(self) -> None:
-        """Take back the last gesture."""
+        """Undo the last gesture."""
         self.state = self.history.undo(self.state)
 
     def redo(self) -> None:
-        """Do again what was taken back."""
+        """Redo the gesture that was undone last."""
         self.state = self.history.redo(self.state)
 
     def _take(self, after: State, gesture: str = "") -> None:

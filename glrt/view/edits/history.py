@@ -11,7 +11,7 @@ class History(Generic[State]):
     """The states before and after the present one; a gesture, such as a drag, is one step."""
 
     def __init__(self) -> None:
-        """Nothing to undo."""
+        """Begin with an empty history."""
         self._past: list[State] = []
         self._future: list[State] = []
         self._gesture = ""
@@ -28,18 +28,18 @@ class History(Generic[State]):
 
     @property
     def before(self) -> State | None:
-        """What undo would bring back."""
+        """State that undo would restore; None if there is none."""
         return self._past[-1] if self._past else None
 
     @property
     def undone(self) -> State | None:
-        """What redo would bring back."""
+        """State that redo would restore; None if there is none."""
         return self._future[-1] if self._future else None
 
     def record(self, before: State, gesture: str = "") -> None:
-        """Remember the state that an edit leaves.
+        """Remember the state before an edit.
 
-        Edits of one gesture in a row are one step, until `settle` ends it; "" is no gesture.
+        Consecutive edits of one gesture are one step, until `settle` ends it; "" is no gesture.
         """
         if not (gesture and gesture == self._gesture):
             self._past = [*self._past[-MOST + 1 :], before]
@@ -47,15 +47,15 @@ class History(Generic[State]):
         self._future.clear()
 
     def settle(self) -> None:
-        """End the gesture: the mouse was let go."""
+        """End the gesture, as when the mouse is released."""
         self._gesture = ""
 
     def undo(self, present: State) -> State:
-        """The state before; the same if there is none."""
+        """Return the state before the present one; `present` if there is none."""
         return self._step(self._past, self._future, present)
 
     def redo(self, present: State) -> State:
-        """The state that was undone last; the same if there is none."""
+        """Return the state that was undone last; `present` if there is none."""
         return self._step(self._future, self._past, present)
 
     def _step(self, source: list[State], target: list[State], present: State) -> State:

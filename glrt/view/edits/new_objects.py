@@ -1,4 +1,4 @@
-"""Objects that a user adds: one of each kind, at a place and of a size, and models from files."""
+"""Objects that a user adds: shapes of each kind at a place and of a size, and models."""
 
 import math
 from pathlib import Path
@@ -19,35 +19,35 @@ from glrt.scene.values import Vector
 from glrt.view.controls import made, replaced
 from glrt.view.edits.scene_edits import free_name, with_added
 
-LAMP = "lamp"  # what is added as one
+LAMP = "lamp"  # kind that stands for a lamp
 MATTE = Lambertian(color=(0.7, 0.7, 0.7))
 BRIGHT = Light(emission=(10.0, 10.0, 10.0))
 ADDED = (*(kind for kind, model in KINDS.items() if model.example(np.zeros(3), 1.0)), LAMP)
 
 
 def with_new(scene: Scene, kind: str, place: Vector, size: float) -> Scene:
-    """One more object of a kind with a material of its own, both named by the kind.
+    """Return the scene with a new object and its own material, both named after the kind.
 
-    A lamp is a square that looks down. Lengths are in scene units.
+    A lamp is a square that faces down. Lengths are in scene units.
     """
     size = two_digits(size)
     middle = np.array([near(part, size) for part in place])
     is_lamp = kind == LAMP
     model = KINDS["quad" if is_lamp else kind]
     fields = model.example(middle, size)
-    if is_lamp:  # edges in the other order: it looks down
+    if is_lamp:  # edges in the other order, so that it faces down
         fields["edge_u"], fields["edge_v"] = fields["edge_v"], fields["edge_u"]
     names = {thing.name for thing in scene.objects if thing.name}
-    groups = [*scene.materials, *scene.light_groups]  # so that a lamp has one of its own
+    groups = [*scene.materials, *scene.light_groups]  # so that a lamp gets its own group
     parts = {"material": free_name(kind, groups), "name": free_name(kind, names)}
     shape: Shape = made(model, {**_fields(fields), **parts})
     return with_added(scene, shape, BRIGHT if is_lamp else MATTE)
 
 
 def with_model(scene: Scene, path: Path, place: Vector, size: float) -> Scene:
-    """The meshes of a model, with its materials, about a place and within a radius.
+    """Return the scene with a model's meshes and materials, within a radius `size` of a place.
 
-    Raises `SceneError` for what is no model.
+    Raises `SceneError` if the file is not a model.
     """
     model = model_scene(path, AssetFolder(path.absolute().parent), str(path))
     meshes = [thing for thing in model.objects if isinstance(thing, Mesh)]
@@ -66,7 +66,7 @@ def with_model(scene: Scene, path: Path, place: Vector, size: float) -> Scene:
 
 
 def _materials(scene: Scene, model: Scene, meshes: list[Mesh]) -> dict[str, tuple[str, Material]]:
-    """By their names in the model: those in the scene; one that is there already is shared."""
+    """Return name and material in the scene, by name in the model; equal materials are shared."""
     found: dict[str, tuple[str, Material]] = {}
     for name in dict.fromkeys(mesh.material for mesh in meshes):
         material = model.materials[name]
@@ -77,18 +77,18 @@ def _materials(scene: Scene, model: Scene, meshes: list[Mesh]) -> dict[str, tupl
 
 
 def two_digits(value: float) -> float:
-    """Of a length: a scene file is to be read."""
+    """Round a length to two digits, so that scene files are easy to read."""
     return float(f"{value:.2g}")
 
 
 def near(value: float, size: float) -> float:
-    """Of a coordinate: its multiple of a power of ten that is a tenth of a size or less."""
+    """Round a coordinate to multiples of a power of ten, at most a tenth of `size`."""
     step = 10.0 ** math.floor(math.log10(size / 10))
     return _tidy(round(value / step) * step)
 
 
 def _tidy(value: float) -> float:
-    """Without the last digits, and without the sign of zero."""
+    """Round to seven digits, and turn -0 into 0."""
     return float(f"{value:.7g}") + 0.0
 
 

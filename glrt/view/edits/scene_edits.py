@@ -1,6 +1,6 @@
-"""What the window edits of a scene, by pure functions: a scene in, the edited one out.
+"""Edits of a scene by pure functions: a scene in, the edited one out.
 
-Raises `UsageError` where the result would be no valid scene.
+They raise `UsageError` where the result would not be a valid scene.
 """
 
 from collections.abc import Iterable, Mapping
@@ -14,32 +14,32 @@ from glrt.scene.scene import Scene
 from glrt.scene.shapes.kinds import Shape
 from glrt.view.controls import made, replaced
 
-_STARTS: dict[str, Any] = {  # of what another type of material does not say
+_STARTS: dict[str, Any] = {  # of values that the former type does not have
     "color": (0.7, 0.7, 0.7),
     "emission": (8.0, 8.0, 8.0),
 }
-_WAYS_OF_METAL = ("preset", "ior", "k")  # a metal that changed its type has a colour
+_WAYS_OF_METAL = ("preset", "ior", "k")  # not kept when a material becomes metal, or was it
 
 
 def with_object(scene: Scene, index: int, shape: Shape) -> Scene:
-    """Another shape in the place of one."""
+    """Return the scene with another shape in place of object `index`."""
     objects = (*scene.objects[:index], shape, *scene.objects[index + 1 :])
     return replaced(scene, objects=objects)
 
 
 def with_object_of(scene: Scene, index: int, material: str) -> Scene:
-    """Another material of the scene for an object."""
+    """Return the scene with another of its materials for object `index`."""
     return with_object(scene, index, replaced(scene.objects[index], material=material))
 
 
 def with_added(scene: Scene, shape: Shape, material: Material | None = None) -> Scene:
-    """One more shape, behind all others, and its material if the scene lacks that."""
+    """Return the scene with one more shape at the end, and `material` under the name it uses."""
     new = {} if material is None else {shape.material: material}
     return replaced(scene, objects=(*scene.objects, shape), materials={**scene.materials, **new})
 
 
 def with_duplicate(scene: Scene, index: int, moved: Shape | None = None) -> Scene:
-    """A copy of an object behind all others, under a name of its own: `moved` is it elsewhere."""
+    """Return the scene with a copy of object `index` at the end, or `moved`, under a free name."""
     shape = moved or scene.objects[index]
     if shape.name:
         shape = replaced(shape, name=free_name(shape.name, _names(scene)))
@@ -47,22 +47,22 @@ def with_duplicate(scene: Scene, index: int, moved: Shape | None = None) -> Scen
 
 
 def without_object(scene: Scene, index: int) -> Scene:
-    """One object less; its material stays."""
+    """Return the scene without object `index`; its material stays."""
     return replaced(scene, objects=(*scene.objects[:index], *scene.objects[index + 1 :]))
 
 
 def with_material(scene: Scene, name: str, **changes: Any) -> Scene:
-    """Other values of a material."""
+    """Return the scene with other values of a material."""
     return _with_materials(scene, {name: replaced(scene.materials[name], **changes)})
 
 
 def with_retyped(scene: Scene, name: str, kind: str) -> Scene:
-    """Another type of a material, which keeps the values that both types have."""
+    """Return the scene with another type of a material; values that both types have stay."""
     return _with_materials(scene, {name: retyped(scene.materials[name], kind)})
 
 
 def retyped(material: Material, kind: str) -> Material:
-    """A material of another type, with the values that both types have."""
+    """Return a material of another type; values that both types have stay."""
     if kind == material.type:
         return material
     model = TYPES[kind]
@@ -74,13 +74,13 @@ def retyped(material: Material, kind: str) -> Material:
 
 
 def _kept(material: Material, kind: str) -> dict[str, Any]:
-    """What a material says that one of another type may say, too."""
+    """Return the values that a material keeps when its type becomes `kind`."""
     kept = {key: value for key, value in material if key != "type" and value is not None}
     if "metal" in (kind, material.type):
         kept = {key: value for key, value in kept.items() if key not in _WAYS_OF_METAL}
     if isinstance(material, Metal):
         kept["color"] = material.head_on
-    if not material.emits or material.type == "light":  # what is no lamp any more does not shine
+    if not material.emits or material.type == "light":  # a former lamp does not shine
         kept.pop("emission", None)
     if not any(kept.get("color", ())):
         kept.pop("color", None)
@@ -88,13 +88,13 @@ def _kept(material: Material, kind: str) -> dict[str, Any]:
 
 
 def _is_needed(model: type[Material], key: str) -> bool:
-    """Whether a type of material must be given a value: of metal, one of several."""
+    """Whether a type of material needs a value; metal needs one of several, here a colour."""
     field = model.model_fields.get(key)
     return field is not None and (field.is_required() or (model is Metal and key == "color"))
 
 
 def with_own_material(scene: Scene, index: int) -> Scene:
-    """A copy of its material for one object alone; the others keep theirs."""
+    """Return the scene with a copy of its material for object `index` alone."""
     shape = scene.objects[index]
     name = free_name(shape.material, scene.materials)
     copied = _with_materials(scene, {name: scene.materials[shape.material]})
@@ -102,7 +102,7 @@ def with_own_material(scene: Scene, index: int) -> Scene:
 
 
 def with_new_material(scene: Scene, index: int) -> Scene:
-    """A matte material of its own for an object."""
+    """Return the scene with a new matte material for object `index`."""
     name = free_name("material", scene.materials)
     matte = Lambertian(color=_STARTS["color"])
     shape = replaced(scene.objects[index], material=name)
@@ -111,7 +111,7 @@ def with_new_material(scene: Scene, index: int) -> Scene:
 
 
 def with_renamed_material(scene: Scene, old: str, new: str) -> Scene:
-    """A material under another name, in its place; objects and its light group follow."""
+    """Return the scene with a renamed material; its objects and its light group follow."""
     if new == old:
         return scene
     new = free_name(new, scene.materials)
@@ -127,7 +127,7 @@ def with_renamed_material(scene: Scene, old: str, new: str) -> Scene:
 
 
 def without_unused_materials(scene: Scene) -> Scene:
-    """The materials that objects have, and intensities of their groups."""
+    """Return the scene without materials that no object has, and without their light groups."""
     used = {shape.material for shape in scene.objects}
     kept = {name: m for name, m in scene.materials.items() if name in used}
     groups = scene.model_copy(update={"materials": kept}).light_groups
@@ -136,13 +136,13 @@ def without_unused_materials(scene: Scene) -> Scene:
 
 
 def unused_materials(scene: Scene) -> list[str]:
-    """Names of materials that no object has."""
+    """Return the names of materials that no object has."""
     used = {shape.material for shape in scene.objects}
     return [name for name in scene.materials if name not in used]
 
 
 def with_own_group(scene: Scene, index: int) -> Scene:
-    """A light group for the emission of one object alone."""
+    """Return the scene with a light group for the emission of object `index` alone."""
     shape = scene.objects[index]
     name = free_name(shape.name or shape.material, scene.light_groups)
     return with_object(scene, index, replaced(shape, group=name))
@@ -151,7 +151,7 @@ def with_own_group(scene: Scene, index: int) -> Scene:
 def found_again(
     before: tuple[Shape, ...], after: tuple[Shape, ...], selected: int | None
 ) -> int | None:
-    """The number of the selected object in other objects; of none, the one that came back."""
+    """Return the new number of the selected object; without one, that of a single new object."""
     if selected is not None and selected < len(before):
         if len(before) == len(after):
             return selected
@@ -162,7 +162,7 @@ def found_again(
 
 
 def free_name(wanted: str, taken: Iterable[str]) -> str:
-    """The name, with a number behind it where it is taken: "ball", "ball 2", "ball 3"."""
+    """Return the name, with a number appended if it is taken: "ball", "ball 2", "ball 3"."""
     names = set(taken)
     stem, _, last = wanted.rpartition(" ")
     stem, number = (stem, int(last)) if stem and last.isdecimal() else (wanted, 1)
@@ -182,14 +182,14 @@ def _with_materials(scene: Scene, changed: Mapping[str, Material]) -> Scene:
 
 
 def with_texture(scene: Scene, name: str, key: str, changes: dict[str, Any]) -> Scene:
-    """Other values of a texture of a material."""
+    """Return the scene with other values of a texture of a material; `key`: its channel."""
     material = scene.materials[name]
     field = key if key == "normal" else f"{key}_map"
     return with_material(scene, name, **{field: replaced(getattr(material, field), **changes)})
 
 
 def with_cone(scene: Scene, name: str, changes: dict[str, Any]) -> Scene:
-    """Another cone of a material: neither half angle passes the other."""
+    """Return the scene with another cone of a material; its inner half angle is not the larger."""
     material = scene.materials[name]
     if not isinstance(material, Opaque) or material.cone is None:
         return scene

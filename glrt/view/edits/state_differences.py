@@ -1,4 +1,4 @@
-"""What parts two states of the window, in a few words: what undo takes back."""
+"""Differences between two states of the window in a few words, as undo and redo show them."""
 
 from collections.abc import Mapping
 
@@ -8,11 +8,11 @@ from glrt.scene.scene import Scene
 from glrt.scene.shapes.kinds import Shape
 from glrt.view.edits.edited_state import State
 
-MOST = 3  # fields that are told by name
+MOST = 3  # differences that are named; the others are counted
 
 
 def change_text(before: State, after: State) -> str:
-    """The edit that leads from one state to another: "center of glass ball", "camera, bounces"."""
+    """Return the edit between two states in words: "center of glass ball", "camera, bounces"."""
     parts = [*_of_scene(before.scene, after.scene), *_fields(before.settings, after.settings)]
     if before.by_length != after.by_length:
         parts.append("bounces live")
@@ -38,7 +38,7 @@ def _of_scene(before: Scene, after: Scene) -> list[str]:
 
 
 def _renamed(before: Scene, after: Scene) -> dict[str, str]:
-    """Old and new names of materials; one that came or went alone is none."""
+    """Return old and new names of materials; empty if the number of materials changed."""
     gone = [name for name in before.materials if name not in after.materials]
     came = [name for name in after.materials if name not in before.materials]
     return dict(zip(gone, came, strict=True)) if len(gone) == len(came) else {}
@@ -47,7 +47,7 @@ def _renamed(before: Scene, after: Scene) -> dict[str, str]:
 def _of_objects(
     before: tuple[Shape, ...], after: tuple[Shape, ...], renamed: Mapping[str, str]
 ) -> list[str]:
-    """Fields of those that stay in their places, and which came or went."""
+    """Return the changed fields of objects, or the added or deleted ones, in words."""
     if len(before) == len(after):
         pairs = [(old, new) for old, new in zip(before, after, strict=True) if old is not new]
         return [
@@ -68,7 +68,7 @@ def _of_shape(before: Shape, after: Shape) -> str:
 
 
 def name_of(shape: Shape) -> str:
-    """What an object is called."""
+    """Return the name of an object, or its shape and material if it has none."""
     return shape.name or f"{shape.shape} of {shape.material}"
 
 

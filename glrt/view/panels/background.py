@@ -1,4 +1,4 @@
-"""The part of the panel for light from infinity: an image, a clear sky, a colour or a gradient."""
+"""Section of the panel for light from infinity: an image, a clear sky, a colour or a gradient."""
 
 from functools import partial
 from typing import Any
@@ -22,12 +22,12 @@ GRADIENT = switch("gradient", "another colour above than below", Cost.RECOMPILE)
 HORIZON = switch("horizon", "a colour of its own between below and above", Cost.RECOMPILE)
 _CLEAR = "the sky of a clear day, with the sun that belongs to it; its place is set under Sun"
 CLEAR = switch("clear_sky", _CLEAR, Cost.RECOMPILE)
-_DULL = (0.5, 0.6, 0.8)  # after a clear sky was turned off
+_DULL = (0.5, 0.6, 0.8)  # colour after a clear sky was turned off
 _MORNING = Sun(elevation=40.0, azimuth=30.0)
 
 
 def draw_background(app: App) -> None:
-    """What it is, and the values of what it is."""
+    """Draw the kind of the background and its values."""
     background = app.session.scene.background
     if background.image:
         _image(app)
@@ -59,7 +59,7 @@ def _sky(app: App, sky: ClearSky) -> None:
 
 
 def _gradient(app: App) -> None:
-    """One colour, or a gradient from bottom to top, with or without a horizon."""
+    """Draw one colour, or a gradient from bottom to top, with or without a horizon."""
     background = app.session.scene.background
     bottom, *_, top = background.gradient
     values = {name: value for name, value in background if value is not None}
@@ -78,7 +78,7 @@ def _gradient(app: App) -> None:
 
 
 def _edit(app: App, values: dict[str, Any], **kept: Any) -> None:
-    """Draw the widgets of some keys; what was edited takes its place beside the others."""
+    """Draw widgets for `values`; after an edit, the background has these keys and `kept` alone."""
     changes = edited_fields(tuple(BACKGROUND[name] for name in values), values, "background")
     if changes:
         app.edit_scene("background", partial(_with_background, **{**kept, **values, **changes}))
@@ -89,18 +89,18 @@ def _with_background(scene: Scene, **keys: Any) -> Scene:
 
 
 def _under_a_clear_sky(scene: Scene) -> Scene:
-    """A sun that is there stays where it is, and shines as the model says."""
+    """Return the scene with a clear sky; a sun keeps its place, with the model's irradiance."""
     sun = replaced(scene.sun, irradiance=None) if scene.sun else _MORNING
     return replaced(scene, background=Background(sky=ClearSky()), sun=sun)
 
 
 def _under_a_color(scene: Scene) -> Scene:
-    """The sun stays as bright as it was."""
+    """Return the scene with a background of one colour; the sun stays as bright as it was."""
     sun = scene.sun and replaced(scene.sun, irradiance=scene.sun_irradiance)
     return replaced(scene, background=Background(color=_DULL), sun=sun)
 
 
 def _between(bottom: Radiance, top: Radiance) -> Radiance:
-    """The middle of a gradient: as a horizon it changes nothing."""
+    """Return the middle of a gradient: as a horizon it changes nothing."""
     red, green, blue = (0.5 * (low + high) for low, high in zip(bottom, top, strict=True))
     return (red, green, blue)

@@ -1,4 +1,4 @@
-"""Commands above the rows of the panel: they stay in sight, and the rows scroll below them."""
+"""Bar of commands at the top of the panel: it stays in sight while the rows scroll below it."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -10,20 +10,20 @@ from glrt.view.state.keys import Action, label
 from glrt.view.widgets.fields import beside, button, tip
 from glrt.view.widgets.steady_widget import ANCHOR
 
-_MOST = 0.3  # of the panel's height, that is told at once of what went wrong
+_MOST = 0.3  # share of the panel's height that a problem may fill
 _RED = (0.95, 0.35, 0.35, 1.0)
 
 
 @contextmanager
 def below_bar(app: App) -> Iterator[None]:
-    """The bar, at the top of the panel however it is scrolled; then rows, cut off where it ends."""
+    """Draw the bar at the top of the panel; rows drawn inside the block are clipped below it."""
     panel, start = imgui.internal.get_current_window(), imgui.get_cursor_pos()
     imgui.set_cursor_pos_y(start.y + imgui.get_scroll_y())
     _commands(app)
     _problem(app)
     imgui.separator()
     end = imgui.get_cursor_pos_y() - imgui.get_scroll_y()  # from the panel's corner
-    panel.deco_inner_size_y1 = end - panel.deco_outer_size_y1  # what keys move to is not under it
+    panel.deco_inner_size_y1 = end - panel.deco_outer_size_y1  # focus by keys is not under it
     imgui.set_cursor_pos(ImVec2(start.x, end))
     ANCHOR.begin(end)
     clip = panel.inner_clip_rect
@@ -33,7 +33,7 @@ def below_bar(app: App) -> Iterator[None]:
 
 
 def bar_end() -> float:
-    """Where the rows begin, in pixels from the panel's upper edge."""
+    """Return where the rows begin, in pixels from the panel's upper edge."""
     panel = imgui.internal.get_current_window()
     return float(panel.deco_outer_size_y1 + panel.deco_inner_size_y1)
 
@@ -53,7 +53,7 @@ def _commands(app: App) -> None:
 
 
 def _step_text(app: App, action: Action) -> None:
-    """The edit that a button would take back or do again, and its keys."""
+    """Show a tooltip on a button: the edit that it undoes or redoes, and its keys."""
     is_hovered = imgui.is_item_hovered()
     what = (app.undoes if action == "undo" else app.redoes) if is_hovered else ""
     keys = " or ".join(label(chord) for chord in app.preferences.bindings[action])
@@ -62,7 +62,7 @@ def _step_text(app: App, action: Action) -> None:
 
 
 def _problem(app: App) -> None:
-    """What went wrong, in sight wherever the panel is; what is long is scrolled."""
+    """Draw the present problem, which scrolls if it is long, and a button to dismiss it."""
     if not app.session.problem:
         return
     room = imgui.get_content_region_avail().x

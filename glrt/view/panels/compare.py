@@ -1,4 +1,4 @@
-"""The parts of the panel that choose a view, and keep a picture to compare with."""
+"""Sections of the panel that choose a view, and keep a picture to compare with."""
 
 from typing import get_args
 
@@ -29,7 +29,7 @@ BESIDE = switch("side_by_side", "A to the left of B, instead of a line between t
 
 
 def draw_view(app: App) -> None:
-    """Which view of the render is shown."""
+    """Draw the choice of the view of the render."""
     view = edited(VIEW, app.show.view)
     if view is not None:
         app.show.view = view
@@ -39,7 +39,7 @@ def draw_view(app: App) -> None:
 
 
 def _slot(app: App) -> None:
-    """Whether A goes on, and how it is set beside B."""
+    """Draw whether A gathers samples, how it is shown with B, and the button to swap them."""
     goes_on = edited(GOES_ON, app.pair.slot is not None)
     if goes_on is not None:
         app.pair.go_on(goes_on)
@@ -54,7 +54,7 @@ def _slot(app: App) -> None:
 
 
 def draw_compare(app: App) -> None:
-    """Keep a picture; wipe between it and the current one, or show the difference."""
+    """Draw the widgets to keep a picture, to wipe between A and B, or to show their difference."""
     show = app.show
     if button("keep this picture", bool(app.picture.name)):
         app.keep()

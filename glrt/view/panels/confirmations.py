@@ -1,4 +1,4 @@
-"""What the window asks before it does what loses something."""
+"""Popups with the questions of the window, such as before edits are lost."""
 
 from imgui_bundle import ImVec2, hello_imgui, imgui
 
@@ -7,13 +7,13 @@ from glrt.view.files import nothing
 
 
 def draw_question(app: App) -> None:
-    """A box above all else; an answer acts, Escape and "cancel" end it without."""
+    """Draw the present question in a popup; Escape and "cancel" close it without an action."""
     question = app.messages.question
     if question is None:
         return
     title = f"{question.title}##question"
     if not imgui.is_popup_open(title):
-        if app.asked is question:  # it was ended by Escape
+        if app.asked is question:  # Escape closed it
             app.messages.question = app.asked = None
             return
         imgui.open_popup(title)

@@ -1,4 +1,4 @@
-"""The part of the panel that opens and saves: scenes, pictures and their recipes."""
+"""Section of the panel that opens and saves scenes, pictures and their recipes."""
 
 from pathlib import Path
 
@@ -12,7 +12,7 @@ from glrt.view.widgets.fields import beside, button, room_for, tip
 
 
 def draw_files(app: App) -> None:
-    """Scenes to open, and where pictures and scenes go."""
+    """Draw the widgets to open scenes, and to save pictures and scenes."""
     files = app.files
     _chooser(files)
     _recent(files)
@@ -57,7 +57,7 @@ def _chooser(files: Files) -> None:
 
 
 def _recent(files: Files) -> None:
-    """What was opened last; names of one kind are told apart by their folders."""
+    """Draw the list of recent files, with their folders, since names may be equal."""
     imgui.set_next_item_width(room_for("recent", hello_imgui.em_size(12)))
     if not imgui.begin_combo("recent", "opened lately"):
         return
@@ -81,7 +81,7 @@ def _recipe(files: Files, has_picture: bool) -> None:
 
 
 def _path(name: str, path: str, hint: str) -> tuple[str, bool]:
-    """A box for a path: its text, and whether Enter ended it."""
+    """Draw a box for a path; return its text, and whether Enter ended the input."""
     imgui.set_next_item_width(min(hello_imgui.em_size(12), 0.5 * imgui.get_window_width()))
     shown = escaped(path)
     _, typed = imgui.input_text_with_hint(f"##{name}", hint, shown)
@@ -90,6 +90,6 @@ def _path(name: str, path: str, hint: str) -> tuple[str, bool]:
 
 
 def _browse(name: str) -> bool:
-    """Whether the dialog of a row is asked for."""
+    """Draw the button of a row that opens a file dialog; return whether it was pressed."""
     beside("...")
     return button(f"...##{name}")

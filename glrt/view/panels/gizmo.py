@@ -1,4 +1,4 @@
-"""The handles that move and scale the selected object."""
+"""Handles in the picture that move and scale the selected object."""
 
 from imgui_bundle import imgui
 from imgui_bundle.imguizmo import im_guizmo
@@ -9,9 +9,9 @@ from glrt.view.viewport.transform import moved_to, object_matrix, projection_mat
 
 
 def draw_gizmo(app: App, left: float, top: float, width: float, height: float) -> None:
-    """Over the picture, which fills this rectangle of the screen; edits the selected object."""
+    """Draw the handles; the rectangle is that of the picture on the screen, in pixels."""
     shape = app.selected_shape
-    if shape is None or app.paths.is_choosing:  # a click there is for the pixel below
+    if shape is None or app.paths.is_choosing:  # a click chooses the pixel
         return
     settings = app.session.settings
     im_guizmo.begin_frame()
@@ -35,7 +35,7 @@ def draw_gizmo(app: App, left: float, top: float, width: float, height: float) -
 
 
 def is_held(app: App) -> bool:
-    """Whether the mouse is at the handles of the selected object, and not at the camera."""
+    """Whether the mouse is over or drags the handles, so that it does not move the camera."""
     if app.selected_shape is None or app.paths.is_choosing:
         return False
     return bool(im_guizmo.is_using() or im_guizmo.is_over())

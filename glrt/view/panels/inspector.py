@@ -1,4 +1,4 @@
-"""The part of the panel, and of the picture, that looks at pixels: zoom, values, histogram."""
+"""Inspection of pixels in the panel and in the picture: zoom, values, histogram."""
 
 import math
 
@@ -30,7 +30,7 @@ HEIGHT = 7  # of the histogram, in em
 
 
 def draw_inspector(app: App) -> None:
-    """Zoom, the switch of the values, and the histogram."""
+    """Draw the zoom, the switch for pixel values, and the histogram."""
     if button("fit", app.zoom != FIT):
         app.zoom_to(None)
     tip("The whole picture, as large as fits; Ctrl and the wheel zoom, Ctrl and a drag move it")
@@ -45,11 +45,11 @@ def draw_inspector(app: App) -> None:
         _histogram(last.histogram, app.session.settings.exposure)
     else:
         imgui.text_disabled("histogram: from two observations on")
-        imgui.dummy(ImVec2(0, hello_imgui.em_size(HEIGHT)))  # what lies below stays where it is
+        imgui.dummy(ImVec2(0, hello_imgui.em_size(HEIGHT)))  # keep the rows below in place
 
 
 def _histogram(shown: Histogram, exposure: float) -> None:
-    """Shares of pixels by how far they are from white, in EV."""
+    """Draw the shares of pixels by their distance from white, in EV."""
     stops = shown.stops + exposure
     size = ImVec2(-1, hello_imgui.em_size(HEIGHT))
     flags = implot.Flags_.no_menus | implot.Flags_.no_legend | implot.Flags_.no_mouse_text
@@ -67,7 +67,7 @@ def _histogram(shown: Histogram, exposure: float) -> None:
 
 
 def pixel_under(app: App, x: float, y: float) -> tuple[int, int] | None:
-    """The pixel of the film at a place of the picture, (0, 0) to (1, 1); None outside."""
+    """Return the pixel (column, row) at a place of the picture, (0, 0) to (1, 1); None outside."""
     renderer = app.session.renderer
     if not renderer or not app.session.samples or not (0 <= x < 1 and 0 <= y < 1):
         return None
@@ -76,7 +76,7 @@ def pixel_under(app: App, x: float, y: float) -> tuple[int, int] | None:
 
 
 def pixel_text(app: App, x: float, y: float) -> list[str]:
-    """What the pixel at a place of the picture holds, a line each; nothing outside of it."""
+    """Return lines with the values of the pixel at a place of the picture; none outside of it."""
     pixel, renderer = pixel_under(app, x, y), app.session.renderer
     if not pixel or not renderer:
         return []
@@ -97,7 +97,7 @@ def pixel_text(app: App, x: float, y: float) -> list[str]:
 
 
 def _bounces_text(app: App, pixel: tuple[int, int]) -> list[str]:
-    """How often the paths of a pixel scatter, where that is shown."""
+    """Return a line with the mean bounces of a pixel's paths, if that view is shown."""
     renderer = app.session.renderer
     is_shown = renderer and app.show.drawn == "bounces"
     found = renderer.aov_pixel("bounces", *pixel) if renderer and is_shown else None

@@ -1,4 +1,4 @@
-"""The part of the panel that shows the keys and changes them."""
+"""Section of the panel that shows and changes the keys."""
 
 from imgui_bundle import hello_imgui, imgui
 
@@ -23,9 +23,9 @@ _MOUSE = {  # in the picture
 
 
 def draw_key_table(app: App) -> None:
-    """What the mouse does, and a row for each action of the keys.
+    """Draw the functions of the mouse, and a row with the keys of each action.
 
-    A click on a key waits for another one.
+    After a click on a key, the next key that is pressed replaces it.
     """
     for gesture, meaning in _MOUSE.items():
         imgui.text(gesture)
@@ -47,7 +47,7 @@ def draw_key_table(app: App) -> None:
 
 
 def _row(app: App, action: Action, chords: tuple[str, ...]) -> None:
-    """The keys of an action, and a button for one more."""
+    """Draw the keys of an action, and a button to add one."""
     for index, chord in enumerate((*chords, "")):
         text = keys.label(chord) if chord else "+"
         if index:
@@ -71,9 +71,9 @@ def _waiting(app: App, action: Action, chords: tuple[str, ...]) -> None:
 
 
 def is_choosing(app: App) -> bool:
-    """Take the key that is waited for; whether keys mean nothing else now.
+    """Take the key that is being chosen; return whether keys have no other effect now.
 
-    So they do until they are let go: the new key of a step must not make one.
+    They have none until they are released: the new key of a move must not move the camera.
     """
     if app.awaited:
         _catch(app)
@@ -83,7 +83,7 @@ def is_choosing(app: App) -> bool:
 
 
 def key_named(name: str) -> imgui.Key:
-    """The key as Dear ImGui has it."""
+    """Return the key of Dear ImGui with this name."""
     return imgui.Key[f"_{name}" if name.isdigit() else name]
 
 
@@ -103,7 +103,7 @@ def _catch(app: App) -> None:
 
 
 def _bind(app: App, action: Action, chords: tuple[str, ...]) -> None:
-    """Take other keys; those that clash are told, and the old ones stay."""
+    """Bind other keys to an action; a conflict is reported, and the old keys stay."""
     app.awaited, app.is_deaf = None, True
     try:
         bindings = {**app.preferences.bindings, action: chords}

@@ -1,19 +1,19 @@
-"""How much of the window its parts have."""
+"""Shares of the window that its parts fill."""
 
 from imgui_bundle import ImVec2, imgui
 
 
 class Shares:
-    """Keeps them where the window gets another size: else the picture alone pays for it."""
+    """Keeps the shares when the window is resized; otherwise only the picture would change."""
 
     def __init__(self) -> None:
-        """No size is known yet."""
+        """Begin without a known size of the window."""
         self._size = (0.0, 0.0)
 
     def keep(self, names: tuple[str, ...]) -> None:
-        """Once a frame, for the parts of these names; what has no size yet is left alone.
+        """Scale the parts of these names if the window was resized; call it once a frame.
 
-        A layout that was saved has none before its first frame.
+        Parts without a size are skipped: a saved layout has no sizes before its first frame.
         """
         size = imgui.get_io().display_size.x, imgui.get_io().display_size.y
         before, self._size = self._size, size
@@ -27,7 +27,7 @@ class Shares:
 
 
 def _nodes(names: tuple[str, ...]) -> list[imgui.internal.DockNode]:
-    """Where these parts are docked, and all splits around them, but not the whole."""
+    """Return the nodes where these parts are docked, and the splits around them except the root."""
     found: dict[int, imgui.internal.DockNode] = {}
     for name in names:
         part = imgui.internal.find_window_by_name(name)

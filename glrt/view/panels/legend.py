@@ -1,4 +1,4 @@
-"""The legend of false colours: a bar with numbers, over the picture."""
+"""Legend of false colours over the picture: a title, and a bar with numbers."""
 
 from imgui_bundle import ImVec2, hello_imgui, imgui
 
@@ -9,10 +9,10 @@ from glrt.view.state.session import Session
 from glrt.view.viewport.picture_view import PictureView
 from glrt.view.viewport.views import has_scale, ticks_of, title_of
 
-_BACK = (0.0, 0.0, 0.0, 0.72)  # black under white text is read over any picture, in both themes
+_BACK = (0.0, 0.0, 0.0, 0.72)  # white text on it is legible over any picture, in both themes
 _TEXT = (1.0, 1.0, 1.0, 1.0)
-_TALLEST = 1.0  # of the bar, in heights of the text
-HEIGHT = 4.2  # of all of it, in lines
+_TALLEST = 1.0  # height of the bar, in lines of text
+HEIGHT = 4.2  # of the whole legend, in lines of text
 
 
 def draw_legend(
@@ -22,7 +22,7 @@ def draw_legend(
     corner: ImVec2,
     width: float,
 ) -> None:
-    """What the colours of the view mean; `corner` is the picture's lower left, `width` its own."""
+    """Draw the legend of the view; `corner`: lower left of the picture, `width`: its width."""
     title = title_of(show.drawn, session.scene.camera, limit_beyond(session))
     if not has_scale(show.drawn):
         return _draw_title(title, corner)

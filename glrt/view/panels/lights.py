@@ -1,4 +1,4 @@
-"""The part of the panel that dims the light groups and tints their lamps."""
+"""Section of the panel for intensities of light groups and colours of lamps."""
 
 from functools import partial
 
@@ -23,7 +23,7 @@ _NO_ROOM = (
 
 
 def draw_lights(app: App) -> None:
-    """A slider for each group, and the colours of its lamps."""
+    """Draw a slider for each light group, and the colours of its lamps."""
     scene = app.session.scene
     if app.session.lacks_room:
         imgui.push_text_wrap_pos(0.0)
@@ -40,7 +40,7 @@ def draw_lights(app: App) -> None:
 
 
 def draw_lamp(app: App, name: str, group: str) -> None:
-    """The same of one lamp, where its object is edited."""
+    """Draw intensity and colour of one lamp, for the section that edits its object."""
     intensity = app.session.scene.light_groups.get(group)
     if intensity is not None:
         _intensity(app, group, intensity, "intensity", f"{group} of object")
@@ -55,7 +55,7 @@ def _intensity(app: App, group: str, value: float, row: str, key: str) -> None:
 
 
 def _emission(app: App, name: str, is_one: bool, key: str) -> None:
-    """Of a lamp. Other materials that emit have theirs beside their colour: at 0 they are none."""
+    """Draw the emission of a lamp; other materials that emit have it among their values."""
     material = app.session.scene.materials[name]
     if not isinstance(material, Light):
         return
@@ -67,7 +67,7 @@ def _emission(app: App, name: str, is_one: bool, key: str) -> None:
 
 @kept_for_the_same
 def _groups(scene: Scene) -> tuple[dict[str, float], dict[str, list[str]]]:
-    """Intensities of the light groups, and the lamps of each; a material stands in one alone."""
+    """Return the intensity and the lamps of each light group; a material is in one group only."""
     has_sky = any(map(any, scene.background.gradient))
     intensities = {g: x for g, x in scene.light_groups.items() if g != SKY_GROUP or has_sky}
     first = {finish.material: finish.group for finish in reversed(scene.finishes) if finish.group}

@@ -1,4 +1,4 @@
-"""The part of the panel that edits the material of the selected object."""
+"""Section of the panel that edits the material of the selected object."""
 
 from collections import Counter
 from dataclasses import replace
@@ -34,16 +34,16 @@ from glrt.view.edits.scene_edits import (
 from glrt.view.panels.lights import draw_lamp
 from glrt.view.widgets.fields import beside, button, edited, edited_fields, named, tip
 
-_OF_TEXTURE = ("rotation", "filter", "strength")  # what a widget edits of a texture
+_OF_TEXTURE = ("rotation", "filter", "strength")  # editable fields of a texture
 _MATERIAL = "of this object; compiles where the kernel lacks it, and else restarts the picture"
-_WAYS = ("color", "preset", "ior", "k")  # in which metal may say what it reflects
+_WAYS = ("color", "preset", "ior", "k")  # fields that may describe the reflectance of metal
 _DOWN = (0.0, -1.0, 0.0)
 CONE = switch("cone", "light a cone of directions alone: a spot", Cost.RECOMPILE)
 _REFLECTS = "how it is said what the metal reflects: by a colour, a measured metal, or its index"
 REFLECTS = choice("reflects", _REFLECTS, Cost.RECOMPILE, ("color", "preset", "ior"))
 TINTED = switch("tinted", "let the inside of the glass absorb light", Cost.RECOMPILE)
 NESTS = switch("nests", "give the glass a priority over other glass", Cost.RECOMPILE)
-_OPTIONS: dict[Control, dict[str, Any]] = {  # what begins where a switch is turned on
+_OPTIONS: dict[Control, dict[str, Any]] = {  # values that a switch sets when it is turned on
     TINTED: {"attenuation_color": (0.6, 0.9, 0.7), "attenuation_distance": 1.0},
     NESTS: {"priority": 0},
 }
@@ -62,7 +62,7 @@ MATERIAL = choice("material", _MATERIAL, Cost.RECOMPILE)
 
 
 def draw_material(app: App, index: int, shape: Shape) -> None:
-    """Which material an object has, and what it is like."""
+    """Draw the choice of the object's material, and the values of that material."""
     scene, name = app.session.scene, shape.material
     kinds = tuple(material.type for material in scene.materials.values())
     chosen = edited(replace(MATERIAL, choices=tuple(scene.materials), told=kinds), name)
@@ -82,7 +82,7 @@ def draw_material(app: App, index: int, shape: Shape) -> None:
 
 
 def _commands(app: App, index: int, name: str) -> bool:
-    """The name of the material, and buttons; whether one of them changed the scene."""
+    """Draw the name of the material and its buttons; return whether the scene was changed."""
     scene = app.session.scene
     renamed = named("name", name, f"material {name}")
     sharing = _uses(scene.objects)[name]
@@ -111,7 +111,7 @@ _unused = kept_for_the_same(unused_materials)
 
 
 def _removes(unused: list[str]) -> bool:
-    """Whether materials that no object has are to go."""
+    """Draw the button that removes unused materials; return whether it was pressed."""
     label = f"remove {len(unused)} unused"
     beside(label)
     is_pressed = button(f"{label}###remove unused")
@@ -120,7 +120,7 @@ def _removes(unused: list[str]) -> bool:
 
 
 def _values(app: App, name: str, material: Material, group: str) -> None:
-    """Its values, and its cone and textures if it has some; `group`: of the light of the object."""
+    """Draw the values, cone and textures of a material; `group`: light group of its object."""
     if isinstance(material, Light):
         draw_lamp(app, name, group)
     changes = edited_fields(_controls(material), dict(material), f"material {name}")
@@ -133,7 +133,7 @@ def _values(app: App, name: str, material: Material, group: str) -> None:
 
 
 def _textures(app: App, name: str, material: Opaque) -> None:
-    """How the images of a material lie on its surfaces; the values above are their factors."""
+    """Draw the placement of a material's textures; the values above are factors of the images."""
     for key, texture in material.textures.items():
         imgui.separator_text(f"{key}: {texture.told}")
         names = _OF_TEXTURE if texture.image is not None else _OF_TEXTURE[:1]
@@ -145,7 +145,7 @@ def _textures(app: App, name: str, material: Opaque) -> None:
 
 
 def _another_way(material: Material, name: str) -> dict[str, Any]:
-    """Fields to set, or to leave open, as the user has just chosen."""
+    """Draw the choices of optional fields; return the fields to set, or to clear with None."""
     label = f"material {name}"
     if isinstance(material, Metal):
         way = next(way for way in REFLECTS.choices if getattr(material, way) is not None)
@@ -162,7 +162,7 @@ def _another_way(material: Material, name: str) -> dict[str, Any]:
 
 
 def _cone(app: App, name: str, cone: Cone | None) -> None:
-    """Whether a lamp lights a cone alone, and which."""
+    """Draw the switch of a lamp's cone, and its values if it is on."""
     wanted = edited(CONE, cone is not None, name)
     if wanted is not None:
         new = Cone(axis=_DOWN) if wanted else None
@@ -174,14 +174,14 @@ def _cone(app: App, name: str, cone: Cone | None) -> None:
 
 @kept_for_the_same
 def _uses(objects: tuple[Shape, ...]) -> Counter[str]:
-    """How many objects each material is of."""
+    """Return the number of objects that use each material."""
     return Counter(shape.material for shape in objects)
 
 
 def _controls(material: Material) -> tuple[Control, ...]:
-    """Of what is given; the emission of lamps stands with the intensity of their light.
+    """Return the controls of fields that are set; the emission of lamps is drawn by `draw_lamp`.
 
-    Glass that becomes rough is another kernel.
+    A change of the roughness of transmissive materials compiles another kernel.
     """
     is_lamp = isinstance(material, Light)
     open_ = (name for name, value in material if value is None or (is_lamp and name == "emission"))
@@ -192,7 +192,7 @@ def _controls(material: Material) -> tuple[Control, ...]:
 
 
 def _reflecting(metal: Metal, way: str) -> dict[str, Any]:
-    """What says in another way what a metal reflects, as near to before as can be."""
+    """Return fields that describe a metal in another way, as close to its look as possible."""
     index = metal.conductor or PRESETS["gold"]
     ways: dict[str, dict[str, Any]] = {
         "color": {"color": metal.head_on},

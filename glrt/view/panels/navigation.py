@@ -1,4 +1,4 @@
-"""From the picture to the widgets of the panel and back, by keys."""
+"""Move between the picture and the widgets of the panel by keys."""
 
 from imgui_bundle import imgui
 
@@ -10,7 +10,7 @@ _ELSEWHERE = (PICTURE, "Figures")
 
 
 def navigate(app: App, wanted: bool) -> None:
-    """Let keys move in the panel, beginning where it was used last; or move the camera again."""
+    """Let keys move in the panel, from its last used widget; or let them move the camera."""
     app.navigates = wanted
     io, flag = imgui.get_io(), imgui.ConfigFlags_.nav_enable_keyboard.value
     io.config_flags = io.config_flags | flag if wanted else io.config_flags & ~flag
@@ -21,9 +21,9 @@ def navigate(app: App, wanted: bool) -> None:
 
 
 def leaves(app: App) -> bool:
-    """Whether Escape is pressed in the panel, or the mouse has gone elsewhere.
+    """Whether Escape is pressed in the panel, or the mouse has chosen another part.
 
-    Dear ImGui has had the key before: what was open or held then has taken it.
+    Dear ImGui handles the key first: an open list or an active widget has taken it.
     """
     was_busy, app.was_busy = app.was_busy, _is_busy()
     if not app.navigates:
@@ -34,6 +34,6 @@ def leaves(app: App) -> bool:
 
 
 def _is_busy() -> bool:
-    """Whether a list is open, or a widget is held or typed into."""
+    """Whether a list is open, or a widget is dragged or typed into."""
     is_open = imgui.is_popup_open("", int(imgui.PopupFlags_.any_popup))
     return bool(is_open or imgui.is_any_item_active())

@@ -1,4 +1,4 @@
-"""The part of the panel that adds objects and edits the selected one."""
+"""Section of the panel that adds objects and edits the selected one."""
 
 from collections import Counter
 from functools import partial
@@ -24,7 +24,7 @@ _NONE = "nothing"
 
 
 def draw_object(app: App) -> None:
-    """Which object is selected, its shape and its material."""
+    """Draw the choice of the object, and the shape and the material of the selected one."""
     if app.is_to_be_seen:
         ANCHOR.go_here()
         app.is_to_be_seen = False
@@ -42,7 +42,7 @@ def draw_object(app: App) -> None:
 
 
 def _chooser(app: App) -> None:
-    """A list of all objects, of which those in sight are drawn: there may be thousands."""
+    """Draw a list of all objects; only the visible rows are drawn, as there may be thousands."""
     objects, index = app.session.scene.objects, app.selected
     row = 0 if app.selected_shape is None or index is None else index + 1
     imgui.set_next_item_width(room_for("object", hello_imgui.em_size(12)))
@@ -65,7 +65,7 @@ def _chooser(app: App) -> None:
 
 
 def _row(objects: tuple[Shape, ...], number: int) -> str:
-    """Of the list, whose first row is no object."""
+    """Return the text of a row of the list, whose first row stands for no object."""
     return _name(number - 1, objects[number - 1]) if number else _NONE
 
 
@@ -74,7 +74,7 @@ def _name(index: int, shape: Shape) -> str:
 
 
 def _commands(app: App) -> None:
-    """Add an object; copy or remove the selected one."""
+    """Draw the buttons that add an object, and copy or delete the selected one."""
     has_one = app.selected_shape is not None
     if button("add"):
         imgui.open_popup("what to add")
@@ -114,7 +114,7 @@ def _buttons(app: App, shape: Shape) -> None:
 
 
 def _name_of(app: App, index: int, shape: Shape) -> None:
-    """Its name, and a light group of its own if it is a lamp."""
+    """Draw the name of the object and, of a lamp, its light group."""
     if name := named("name", shape.name or "", f"shape {index}"):
         app.edit_scene("", partial(_reshaped, index, {"name": name}))
     group = app.session.scene.finish(shape).group
@@ -130,7 +130,7 @@ def _name_of(app: App, index: int, shape: Shape) -> None:
 
 @kept_for_the_same
 def _lamps_of(scene: Scene) -> Counter[str]:
-    """How many objects shine in each light group."""
+    """Return the number of objects that emit in each light group."""
     return Counter(scene.finish(thing).group for thing in scene.objects)
 
 

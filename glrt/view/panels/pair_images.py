@@ -1,4 +1,4 @@
-"""The picture, and the one that it is compared with beside it or behind a line."""
+"""Draw the picture, and the one to compare it with: side by side, or divided by a line."""
 
 import math
 
@@ -14,7 +14,7 @@ _NOTICE = (0.0, 0.0, 0.0, 0.65)
 def draw_image(
     app: App, place: Rectangle, seen: Rectangle, picture: Picture, is_kept: bool = False
 ) -> None:
-    """A picture, or the part of it that is seen: where it is magnified, with sharp pixels."""
+    """Draw a picture, or only its visible part with sharp pixels if it is magnified."""
     (left, top, width, height), painter = place, imgui.get_window_draw_list()
     name = picture.kept_name if is_kept else picture.name
     columns, rows = picture.size
@@ -24,7 +24,7 @@ def draw_image(
         name = picture.part(part, (round(seen[2]), round(seen[3])), is_kept)
         left, top, width, height = seen
     end = (left + width, top + height)
-    painter.add_image(imgui.ImTextureRef(name), (left, top), end, (0, 1), (1, 0))  # row 0 is low
+    painter.add_image(imgui.ImTextureRef(name), (left, top), end, (0, 1), (1, 0))  # row 0 is lowest
 
 
 def _draw_a(app: App, place: Rectangle, seen: Rectangle) -> None:
@@ -34,7 +34,7 @@ def _draw_a(app: App, place: Rectangle, seen: Rectangle) -> None:
 
 
 def draw_side_by_side(app: App, seen: Rectangle, step: float) -> None:
-    """A to the left of B, as much of it, and their names."""
+    """Draw A to the left of B, the same part of it, and the names of both."""
     (left, top, width, height), painter = app.rectangle, imgui.get_window_draw_list()
     shown = (seen[0] - step, *seen[1:])
     painter.push_clip_rect(shown[:2], (shown[0] + shown[2], shown[1] + shown[3]), True)
@@ -46,7 +46,7 @@ def draw_side_by_side(app: App, seen: Rectangle, step: float) -> None:
 
 
 def draw_wipe(app: App, seen: Rectangle) -> None:
-    """The kept picture over the left part, and the line where it ends."""
+    """Draw A over the left part of B, and the line between them."""
     left, top, width, height = app.rectangle
     share = app.show.wipe
     painter, edge = imgui.get_window_draw_list(), math.floor(left + share * width) + 0.5
@@ -54,14 +54,14 @@ def draw_wipe(app: App, seen: Rectangle) -> None:
     _draw_a(app, app.rectangle, seen)
     painter.pop_clip_rect()
     black, white = (imgui.get_color_u32((c, c, c, 1.0)) for c in (0.0, 1.0))
-    for color, thickness in ((black, 3.0), (white, 1.0)):  # seen on any picture
+    for color, thickness in ((black, 3.0), (white, 1.0)):  # visible on any picture
         painter.add_line((edge, top), (edge, top + height), color, thickness)
     for name, x in (("A", edge - imgui.get_font_size() * 2.4), ("B", edge)):
         draw_notice(name, ImVec2(x, top + height - imgui.get_font_size() * 2.4))
 
 
 def draw_wipe_handle(app: App) -> None:
-    """Takes the mouse near the line, to drag it."""
+    """Let the mouse drag the line between A and B."""
     left, top, width, height = app.rectangle
     grip = imgui.get_font_size() * 0.7
     imgui.set_cursor_screen_pos(ImVec2(left + app.show.wipe * width - grip / 2, top))
@@ -74,7 +74,7 @@ def draw_wipe_handle(app: App) -> None:
 
 
 def draw_notice(text: str, corner: ImVec2, width: float = 0.0) -> float:
-    """A line of text over the picture, broken where it is wider than `width`; its height."""
+    """Draw a text over the picture, wrapped at `width` pixels if given; return its height."""
     em = imgui.get_font_size()
     margin, room = ImVec2(em * 0.6, em * 0.4), max(width - 2.4 * em, 8 * em) if width else 0.0
     painter, at = imgui.get_window_draw_list(), corner + margin

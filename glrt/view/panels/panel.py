@@ -1,4 +1,4 @@
-"""The panel: every setting and every editable value of the scene, by subject."""
+"""The main panel: every setting and every editable value of the scene, by subject."""
 
 from dataclasses import replace
 from functools import partial
@@ -34,14 +34,14 @@ from glrt.view.widgets.steady_widget import ANCHOR
 
 SETTINGS = {c.name: c for c in controls_of(Settings, leave_out=("crop", "denoise"))}
 PATHS = ("method", "sampler", "roulette", "seed", "caustics")
-PROBES = ("probes",)  # where the method has any
-REUSE = ("reuse", "unbiased")  # where it keeps points
-PARTICLES = ("particles", "aimed", "linked")  # where caustics are on
+PROBES = ("probes",)  # shown if the method has probes
+REUSE = ("reuse", "unbiased")  # shown if the method resamples points
+PARTICLES = ("particles", "aimed", "linked")  # shown if caustics are on
 DISPLAY = ("exposure", "tonemap")
 FRAME: tuple[Literal["width"], Literal["height"]] = ("width", "height")
 CAMERA = {c.name: c for c in controls_of(Camera)}
 PREFERENCES = controls_of(Preferences)
-LIVE_PROBES = ("live_probes", "hysteresis")  # where the method has any
+LIVE_PROBES = ("live_probes", "hysteresis")  # shown if the method has probes
 MOVING = ("mode", "temporal", "predictor", "traced")
 FREE_SAMPLES = ("samples_per_frame", "target_error")
 
@@ -57,14 +57,14 @@ SHOWN = replace(LIVE, name="shown", kind="choice", help=_SHOWN, cost=Cost.RELIGH
 
 
 def draw_panel(app: App) -> None:
-    """The content of the window that holds the controls."""
+    """Draw the content of the part of the window that holds the controls."""
     with below_bar(app):
         _rows(app)
     ANCHOR.keep()
 
 
 def _rows(app: App) -> None:
-    """What the panel scrolls."""
+    """Draw the cautions and all sections, which scroll below the bar."""
     _cautions(app)
     for title, section, flags in _SECTIONS:
         if (section is draw_object and app.is_to_be_seen) or (
@@ -82,7 +82,7 @@ def _rows(app: App) -> None:
 
 
 def _bring_to_sight(top: float) -> None:
-    """Scroll down to the end of a part that was unfolded, but not past its title."""
+    """Scroll down to the end of a section that was unfolded, but not past its title."""
     corner, height = imgui.get_window_pos().y, imgui.get_window_height()
     hidden = imgui.get_cursor_screen_pos().y - corner - height
     room = top - corner - bar_end()
@@ -91,7 +91,7 @@ def _bring_to_sight(top: float) -> None:
 
 
 def _cautions(app: App) -> None:
-    """Where the scene oversteps what float32 or the model can do; `glrt render` tells it, too."""
+    """Draw cautions where a scene exceeds float32 or the model; `glrt render` prints them too."""
     for caution in _found(app.session.scene, app.session.settings):
         _colored(COLORS[Cost.RESTART], f"Caution: {caution}")
 
@@ -130,7 +130,7 @@ def _paths(app: App) -> None:
 
 
 def _lengths(session: Session) -> None:
-    """Show the light of one length of paths alone."""
+    """Draw the choice to show all light, or only that of paths of one length."""
     last = min(session.settings.bounces, MOST_LAYERS - 1)
     rest = f"bounces from {last}" if session.settings.bounces > last else f"bounce {last} alone"
     names = ["all light", *[f"bounce {n} alone" for n in range(last)], rest]

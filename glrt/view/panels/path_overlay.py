@@ -1,4 +1,4 @@
-"""Paths of a pixel over the picture, and in a view from outside."""
+"""Draw the paths of a pixel over the picture, and in a view from outside."""
 
 from collections.abc import Iterable
 
@@ -25,13 +25,13 @@ COLORS: dict[Kind, Color] = {
 _FAINT: Color = (1.0, 1.0, 1.0, 0.25)
 _GROUND, _THING = (0.08, 0.08, 0.1, 0.9), (0.65, 0.65, 0.7, 0.8)
 _CAMERA: Color = (0.4, 0.9, 0.5, 1.0)
-SHARE = 0.42  # of the room's sides, of the view from outside
-MOST_OBJECTS = 200  # that are drawn there
-_DEGREES = 0.5  # a pixel of a drag turns that view
+SHARE = 0.42  # side of the view from outside, in shorter sides of the visible picture
+MOST_OBJECTS = 200  # drawn in that view
+_DEGREES = 0.5  # by which a pixel of a drag turns that view
 
 
 def draw_paths(app: App, seen: Rectangle) -> None:
-    """Over the picture; the one that is shown brighter than the others."""
+    """Draw the paths over the picture, the shown one brighter than the others."""
     paths, left_top = app.paths, app.rectangle[:2]
     if not paths.found or not paths.shown:
         return
@@ -49,7 +49,7 @@ def draw_paths(app: App, seen: Rectangle) -> None:
 
 
 def paths_text(app: App) -> str:
-    """What a click does while a pixel is chosen, and how paths are removed; "" for nothing."""
+    """Return a notice on what a click does, or how paths are removed; "" if there is none."""
     paths = app.paths
     if paths.busy or not (paths.is_choosing or paths.found):
         return paths.busy
@@ -61,20 +61,20 @@ def paths_text(app: App) -> str:
 
 
 def place_of_outside(app: App, seen: Rectangle) -> Rectangle | None:
-    """Where the view from outside lies: in the corner of the picture that is far from the pixel."""
+    """Return the rectangle of the view from outside, in a corner far from the pixel, or None."""
     found = app.paths.found
     if not app.paths.shown or not found:
         return None
     side, settings = SHARE * min(seen[2:]), found.recipe.settings
-    is_toured = app.preferences.tour and app.tour_step is not None  # in the upper right
-    is_high = found.pixel[1] >= settings.height / 2 and not is_toured  # upper left are notices
+    is_toured = app.preferences.tour and app.tour_step is not None  # its box is upper right
+    is_high = found.pixel[1] >= settings.height / 2 and not is_toured  # notices are upper left
     is_left = not is_high and found.pixel[0] >= settings.width / 2
     left = seen[0] if is_left else seen[0] + seen[2] - side
     return left, seen[1] if is_high else seen[1] + seen[3] - side, side, side
 
 
 def draw_outside(app: App, seen: Rectangle) -> None:
-    """The same from outside, in a corner of the picture."""
+    """Draw the shown path from outside in a corner of the picture; a drag turns that view."""
     path, found, place = app.paths.shown, app.paths.found, place_of_outside(app, seen)
     if not path or not found or not place:
         return
@@ -113,7 +113,7 @@ def _turn(app: App, corner: tuple[float, float], side: float) -> None:
 
 
 class _View:
-    """Lines of the scene as a camera sees them, in a rectangle of the screen."""
+    """Draws lines of the scene as a camera sees them, in a rectangle of the screen."""
 
     def __init__(
         self,
@@ -127,14 +127,14 @@ class _View:
         self._near = 1e-4 * camera.resolved_focus_distance
 
     def draw(self, lines: Iterable[Line], color: Color | None = None) -> None:
-        """Each kind in its colour."""
+        """Draw lines in `color`, or each kind in its own colour."""
         for line in lines:
             ends = np.stack([line.start, line.end])[None]
             places = projected(ends, self.camera, self._aspect, self._near)
             self.lines(places, color or COLORS[line.kind], 1.0 if color else 2.0)
 
     def dots(self, path: Path) -> None:
-        """The vertices of a path but the one on the lens."""
+        """Draw the vertices of a path except its first one, on the lens."""
         painter, color = imgui.get_window_draw_list(), imgui.get_color_u32(COLORS["path"])
         for vertex in path.vertices[1:]:
             point = np.array(vertex.position)
@@ -145,7 +145,7 @@ class _View:
                 painter.add_circle_filled(start, 3.0, color)
 
     def lines(self, places: Segments, color: Color, thickness: float) -> None:
-        """Segments in shares of the rectangle, on a dark line that parts them from the picture."""
+        """Draw segments in shares of the rectangle; thick ones get a dark edge for contrast."""
         painter = imgui.get_window_draw_list()
         dark = imgui.get_color_u32((0.0, 0.0, 0.0, 0.6 * color[3]))
         bright = imgui.get_color_u32(color)
@@ -155,7 +155,7 @@ class _View:
             painter.add_line(start, end, bright, thickness)
 
     def _on_screen(self, places: Segments) -> list[list[list[float]]]:
-        near = np.clip(places, -50, 50)  # far outside of the room lines need no true end
+        near = np.clip(places, -50, 50)  # far outside of the rectangle, ends need not be exact
         found: list[list[list[float]]] = (near * self._size + self._corner).tolist()
         return found
 

@@ -1,4 +1,4 @@
-"""The part of the panel that tells the paths of a pixel, and why it is bright."""
+"""Section of the panel that shows the paths of a pixel, and why it is bright."""
 
 from imgui_bundle import hello_imgui, imgui
 
@@ -35,7 +35,7 @@ _LEGEND: dict[Kind, str] = {
 
 
 def draw_pixel_paths(app: App) -> None:
-    """Choose a pixel; its samples by the light that they carry, and one of them in full."""
+    """Draw the choice of a pixel, its samples by the light they carry, and one path in full."""
     paths = app.paths
     if paths.is_new:
         ANCHOR.go_here()
@@ -76,7 +76,7 @@ def _pixel(app: App, found: PixelPaths) -> None:
 
 
 def _samples(app: App, found: PixelPaths) -> None:
-    """Those that carry most light; a click shows one."""
+    """Draw the list of samples that carry most light; a click shows one."""
     _dimmed("samples by their share of its light")
     for path in found.paths:
         share = percent(found.shares[path.sample])
@@ -86,7 +86,7 @@ def _samples(app: App, found: PixelPaths) -> None:
 
 
 def _particles(app: App, found: PixelPaths) -> None:
-    """Those that reach the pixel, and what they bring beside the paths; a click shows one."""
+    """Draw the particles that reach the pixel and the light that they add; a click shows one."""
     there = found.particles
     if not there:
         return
@@ -121,14 +121,14 @@ def _path(path: Path) -> None:
 
 
 def _dimmed(text: str) -> None:
-    """Grey, in more lines where the panel is narrow."""
+    """Draw grey text, wrapped where the panel is narrow."""
     imgui.push_text_wrap_pos(0.0)
     imgui.text_disabled(text)
     imgui.pop_text_wrap_pos()
 
 
 def _table(name: str, rows: list[tuple[str, ...]], columns: tuple[int, ...]) -> None:
-    """Some columns of a table, that scrolls where the panel is narrow."""
+    """Draw some columns of a table, which scrolls where the panel is narrow."""
     flags = imgui.TableFlags_.borders_inner_h | imgui.TableFlags_.sizing_fixed_fit
     flags |= imgui.TableFlags_.scroll_x
     height = (len(rows) + 0.6) * imgui.get_text_line_height_with_spacing() + 14

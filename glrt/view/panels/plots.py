@@ -1,4 +1,4 @@
-"""The figures of a render: samples, speed, error, and when it will be small enough."""
+"""Figures of a render: samples, speed, error, and a forecast of the error."""
 
 import math
 
@@ -15,14 +15,14 @@ from glrt.view.state.error_history import Look, Progress
 from glrt.view.state.session import Session
 from glrt.view.widgets.fields import tip
 
-_MOST_TICKS = 5  # of an axis: more run into each other
-_BESIDE = 36  # letters' heights across: below, the plot stands under the words, not beside them
+_MOST_TICKS = 5  # of an axis: more labels would overlap
+_BESIDE = 36  # em: in a narrower part of the window, the plot is below the text
 
 _DOUBT = ",\nnot to be believed: few samples carry much of the light"
 
 
 def draw_figures(app: App) -> None:
-    """The content of the window below the picture."""
+    """Draw the content of the part of the window below the picture."""
     columns = 2 if imgui.get_content_region_avail().x > hello_imgui.em_size(_BESIDE) else 1
     if imgui.begin_table("figures", columns, imgui.TableFlags_.sizing_stretch_same.value):
         imgui.table_next_column()
@@ -35,7 +35,7 @@ def draw_figures(app: App) -> None:
 
 
 def figures(app: App) -> list[str]:
-    """What is known of the picture, line by line."""
+    """Return the figures of the picture as lines of text."""
     session, progress = app.session, app.progress
     width, height = session.renderer.size if session.renderer else (0, 0)
     work = session.renderer.work if session.renderer else 0.0
@@ -55,14 +55,14 @@ def figures(app: App) -> list[str]:
 
 
 def _slot_text(slot: Slot) -> str:
-    """The samples of A, its seconds and its error."""
+    """Return a line with the samples, seconds and error of A, or what A waits for."""
     session, last = slot.session, slot.progress.last
     error = f"error {error_text(last)}" if last else "error unknown"
     return session.busy or f"A: {session.samples} samples in {session.rendering:.1f} s, {error}"
 
 
 def forecast(progress: Progress, target: float, samples: int) -> str:
-    """When the error will reach the target, and how many samples it takes if these are too few."""
+    """Return when the error will reach the target, and the samples that it needs if too few."""
     seconds, needed = progress.remaining(target), progress.samples_to(target)
     if seconds is None or needed is None:
         return f"{_percent(target)}: time not known yet"
@@ -81,7 +81,7 @@ def _samples(done: int, wanted: int) -> str:
 
 
 def _unknown(session: Session) -> str:
-    """Why there is no error, and when there is."""
+    """Return why the error is unknown, and from when on it is known."""
     if session.moving.is_shown(session.renderer, session.settings.samples):
         return "unknown while history of earlier views is shown"
     if session.is_passing and not session.is_preview:
@@ -94,12 +94,12 @@ def _unknown(session: Session) -> str:
 
 
 def error_text(look: Look) -> str:
-    """The error of a look, and whether it is to be believed."""
+    """Return the error of a look, with a note if it may be far too small."""
     return f"{_banded(look)}{_DOUBT if look.is_doubtful else ''}"
 
 
 def _banded(look: Look) -> str:
-    """The error, and the band that chance leaves it: to as many digits as tell its ends apart."""
+    """Return the error and its confidence band, with enough digits to distinguish its ends."""
     error, low, high = (100 * part for part in look.band)
     if not 0 < high - low < math.inf:
         return f"{error:.2g} %, estimated"
@@ -120,7 +120,7 @@ def _duration(seconds: float) -> str:
 
 
 def _kernel(app: App) -> None:
-    """What the kernel contains, and what draws it."""
+    """Draw the features of the kernel, and the driver that runs it."""
     session = app.session
     if not session.renderer:
         return
@@ -135,7 +135,7 @@ def _kernel(app: App) -> None:
 
 @kept_for_the_same
 def _contents(plan: Plan) -> tuple[str, str]:
-    """What a kernel contains; and what it does not, with the reasons."""
+    """Return the features that a kernel contains; and those it leaves out, with the reasons."""
     features = explain(plan)
     inside = ", ".join(feature.name for feature in features if feature.present)
     layers = f"; {plan.layers} layers" if plan.layers else ""
@@ -144,7 +144,7 @@ def _contents(plan: Plan) -> tuple[str, str]:
 
 
 def _plot(app: App) -> None:
-    """Error over seconds, both logarithmic, and the line of slope -1/2 that noise follows."""
+    """Plot the error over seconds, both logarithmic, and the slope -1/2 that noise follows."""
     looks = app.progress.drawn
     size = ImVec2(-1, max(imgui.get_content_region_avail().y, hello_imgui.em_size(6)))
     if not implot.begin_plot("##error", size, implot.Flags_.no_menus.value):
@@ -172,7 +172,7 @@ def _plot(app: App) -> None:
 
 
 def _limits(app: App) -> tuple[float, float, float, float]:
-    """Of both pictures, where A goes on."""
+    """Return the limits of the plot, for the errors of B and of A if it gathers samples."""
     own = app.progress.limits()
     if not app.pair.slot or len(app.pair.slot.progress.drawn) < 2:
         return own
@@ -189,7 +189,7 @@ def _line(name: str, looks: list[Look]) -> None:
 
 
 def _ticks(low: float, high: float) -> list[float]:
-    """1, 2, 5 and so on between limits; powers of ten alone where those are many."""
+    """Return ticks of 1, 2, 5 and so on between limits; powers of ten if those are too many."""
     powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
     fine, coarse = ([share * 10.0**p for p in powers for share in s] for s in ((1, 2, 5), (1,)))
     inside = [tick for tick in fine if low <= tick <= high]

@@ -1,4 +1,4 @@
-"""Commands and steps by keys, in frames that may be slower than the hand."""
+"""Commands and camera moves by keys, also in frames slower than a key press."""
 
 from collections.abc import Callable
 
@@ -17,7 +17,7 @@ _AXES: dict[Move, tuple[int, int, int]] = {  # right, up, forward
     "up": (0, 1, 0),
     "down": (0, -1, 0),
 }
-_COMMANDS: dict[Action, Callable[[App], object]] = {  # what a press of a key does
+_COMMANDS: dict[Action, Callable[[App], object]] = {  # command of each action
     "home": lambda app: app.home(),
     "frame": lambda app: app.frame_selected(),
     "pause": lambda app: app.pause(),
@@ -46,15 +46,15 @@ _MODIFIERS = {
 
 
 def draw_keys(app: App) -> None:
-    """Act on the keys; not while a text is typed, a list is open, or a key is chosen.
+    """Act on the keys, except while a text is typed, a list is open, or a key is being chosen.
 
-    Those that move the camera do not while keys move in the panel.
+    Keys do not move the camera while they move in the panel.
     """
     io = imgui.get_io()
     is_open = imgui.is_popup_open("", _ANY_POPUP)
     if is_open and imgui.is_key_pressed(imgui.Key.escape):
         imgui.internal.close_popup_to_level(0, restore_focus_to_window_under_popup=True)
-    is_free = not app.was_busy  # Dear ImGui has had Escape before
+    is_free = not app.was_busy  # else Dear ImGui has used Escape
     is_left = leaves(app)
     if io.want_text_input or is_open or is_choosing(app):
         return
@@ -71,13 +71,13 @@ def draw_keys(app: App) -> None:
     for action, act in _COMMANDS.items():
         if _is_pressed(app, action):
             act(app)
-            app.is_deaf = "ctrl" in modifiers()  # what is let go after Ctrl makes no step
+            app.is_deaf = "ctrl" in modifiers()  # keys released after Ctrl move nothing
     if not held and not imgui.is_any_item_active() and not imgui.is_mouse_down(0):
         app.session.history.settle()
 
 
 def modifiers() -> list[str]:
-    """Those that are held, or were let go in this frame: in a slow one a chord comes and goes."""
+    """Return the modifiers held or released in this frame: a slow frame may hold a whole chord."""
     io = imgui.get_io()
     down = {"ctrl": io.key_ctrl, "shift": io.key_shift, "alt": io.key_alt}
     return [
@@ -88,14 +88,14 @@ def modifiers() -> list[str]:
 
 
 def _is_held(app: App, action: Action) -> bool:
-    """Whether a key without modifiers is down."""
+    """Whether a key of an action is down, without Ctrl."""
     if "ctrl" in modifiers():
         return False
     return any(imgui.is_key_down(key_named(name)) for name in app.preferences.bindings[action])
 
 
 def _is_pressed(app: App, action: Action) -> bool:
-    """In the panel, keys without Ctrl are those of its widgets."""
+    """Whether an action's key was pressed; in the panel, keys without Ctrl are for widgets."""
     chords = app.preferences.bindings[action]
     if app.navigates and action != "panel":
         chords = tuple(name for name in chords if name.startswith("ctrl+"))
@@ -103,6 +103,6 @@ def _is_pressed(app: App, action: Action) -> bool:
 
 
 def _comes(text: str) -> bool:
-    """Whether the last key of "ctrl+shift+z" was pressed in this frame, with the others."""
+    """Whether the key of a chord such as "ctrl+shift+z" was pressed now, with its modifiers."""
     *wanted, key = text.split("+")
     return modifiers() == wanted and imgui.is_key_pressed(key_named(key), repeat=False)

@@ -1,4 +1,4 @@
-"""The part of the panel that places the sun."""
+"""Section of the panel for the sun."""
 
 from dataclasses import replace
 from functools import partial
@@ -17,7 +17,7 @@ _FIRST = Sun(elevation=40, azimuth=30, irradiance=(3.0, 2.8, 2.5))
 
 
 def draw_sun(app: App) -> None:
-    """Whether there is one, where it stands, how wide and how bright it is."""
+    """Draw the switch of the sun, and its direction, size and brightness."""
     sun = app.session.scene.sun
     wanted = edited(SHINES, sun is not None)
     if wanted is not None:
@@ -28,7 +28,7 @@ def draw_sun(app: App) -> None:
     if sun.direction is None:
         values = {"elevation": sun.elevation, "azimuth": sun.azimuth or 0.0, **values}
     rows = [SUN[name] for name in values]
-    if app.session.scene.background.sky:  # of the day
+    if app.session.scene.background.sky:  # which needs the sun above the horizon
         rows = [
             replace(row, low=0.0, slider=(0, 90)) if row.name == "elevation" else row
             for row in rows

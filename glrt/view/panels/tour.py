@@ -1,4 +1,4 @@
-"""Five steps that show a newcomer what there is; closed for ever, or until the next start."""
+"""Tour of five steps for newcomers; it is closed for ever, or until the next start."""
 
 from imgui_bundle import ImVec2, hello_imgui, imgui
 
@@ -37,12 +37,12 @@ STEPS = (
         "again. Below the picture stand its error, and when it will be small enough.",
     ),
 )
-_WIDTH = 22.0  # letters' heights
-_LEAST = 14.0  # letters' heights: lines beside the box are no narrower
+_WIDTH = 22.0  # em, the height of a letter
+_LEAST = 14.0  # em: least width of lines next to the box
 
 
 def draw_tour(app: App) -> None:
-    """One step in the upper right, above the picture, which stays at hand."""
+    """Draw the present step in a box upper right, above the picture, which stays usable."""
     if not app.preferences.tour or app.tour_step is None:
         return
     area = imgui.get_main_viewport()
@@ -68,7 +68,7 @@ def draw_tour(app: App) -> None:
 
 
 def room_next_to_tour(seen: Rectangle) -> tuple[ImVec2, float]:
-    """Where lines of text begin over the picture, and how wide they may be: not under the box."""
+    """Return where lines of text over the picture begin, and their width, clear of the box."""
     left, top, width, _ = seen
     box, least = imgui.internal.find_window_by_name("###tour"), hello_imgui.em_size(_LEAST)
     is_clear = not (box and box.active) or box.pos.x > left + width
@@ -80,7 +80,7 @@ def room_next_to_tour(seen: Rectangle) -> tuple[ImVec2, float]:
 
 
 def _tallest(width: float) -> float:
-    """The height of the longest text: buttons that stay in their place are clicked in a row."""
+    """Return the height of the longest text, so that the buttons stay in place between steps."""
     return max(imgui.calc_text_size(text, wrap_width=width).y for _, text in STEPS)
 
 

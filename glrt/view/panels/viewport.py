@@ -1,4 +1,4 @@
-"""The picture in its window, and the mouse that moves the camera."""
+"""Draw the picture and what is shown over it, and handle the mouse there."""
 
 import math
 import time
@@ -31,12 +31,12 @@ _EVERY_BUTTON = int(
     | imgui.ButtonFlags_.mouse_button_right
     | imgui.ButtonFlags_.mouse_button_middle
 )
-_FRAMED = 4.0  # pixels of the screen: a pixel that is as large gets a frame when it is read
+_FRAMED = 4.0  # screen pixels: from this size on, the pixel under the mouse gets a frame
 _OUTLINE = (0.0, 0.0, 0.0, 0.6), (1.0, 0.62, 0.1, 1.0)
 
 
 def draw_viewport(app: App) -> None:
-    """The content of the window that holds the picture."""
+    """Draw the content of the part of the window that holds the picture."""
     settings = app.session.settings
     here, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
     has_kept = bool(app.pair.picture) and app.show.drawn == "picture"
@@ -58,7 +58,7 @@ def draw_viewport(app: App) -> None:
     draw_paths(app, seen)
     draw_gizmo(app, corner.x, corner.y, width, height)
     draw_outside(app, seen)
-    if not is_held(app):  # a button below the handles would keep the mouse from them
+    if not is_held(app):  # a button below the handles would take the mouse from them
         if is_wiped:
             draw_wipe_handle(app)
         imgui.set_cursor_screen_pos(ImVec2(*seen[:2]))
@@ -76,21 +76,21 @@ def draw_viewport(app: App) -> None:
 
 
 def _share_under_mouse(app: App) -> tuple[float, float]:
-    """Where the mouse is in the picture, from (0, 0) upper left to (1, 1)."""
+    """Return the place of the mouse in the picture, from (0, 0) upper left to (1, 1)."""
     left, top, width, height = app.rectangle
     x, y = imgui.get_io().mouse_pos
     return (x - left) / width, (y - top) / height
 
 
 def _room_for_notices(app: App, seen: Rectangle) -> tuple[ImVec2, float]:
-    """Where lines of text begin, and how wide they may be: beside what else is in the picture."""
+    """Return where notices begin, and their width, clear of the tour and the view from outside."""
     (place, width), box = room_next_to_tour(seen), place_of_outside(app, seen)
     is_beside = box is not None and box[1] <= place.y < box[1] + box[3] and box[0] > place.x
     return place, min(width, box[0] - place.x) if box and is_beside else width
 
 
 def _notices(app: App) -> tuple[str, ...]:
-    """What is told in the picture, a line each; "" for nothing."""
+    """Return the notices over the picture, a line each; "" for none."""
     return (
         app.show.notice(app.session),
         told(app.session.lag),
@@ -105,7 +105,7 @@ def _notices(app: App) -> tuple[str, ...]:
 
 
 def _black_text(app: App) -> str:
-    """Why nothing is seen, and the key that leads back; "" where something is."""
+    """Return why the picture is black, and the key that leads back; "" if it is not black."""
     reason, keys = app.blackness.reason, app.preferences.bindings["home"]
     if app.show.drawn != "picture" or not reason:
         return ""
@@ -115,7 +115,7 @@ def _black_text(app: App) -> str:
 
 
 def _zoom_text(app: App) -> str:
-    """How large pixels are, and the key that ends it; "" where the whole picture is shown."""
+    """Return the zoom, and the key that ends it; "" if the whole picture is shown."""
     scale, keys = app.zoom.scale, app.preferences.bindings["fit"]
     if scale is None:
         return ""
@@ -124,12 +124,12 @@ def _zoom_text(app: App) -> str:
 
 
 def _is_old(app: App) -> bool:
-    """Whether what is on the screen lacks the last edit, and is no preview of it."""
+    """Whether the picture on the screen lacks the last edit, and is no preview of it."""
     return app.show.is_old and not app.show.is_surface
 
 
 def _pixel_values(app: App, seen: Rectangle) -> None:
-    """What the pixel under the mouse holds, on the other side of the picture; and its frame."""
+    """Draw the values of the pixel under the mouse, in the other half of the picture."""
     share = _share_under_mouse(app)
     lines = pixel_text(app, *share)
     if not lines:
@@ -150,7 +150,7 @@ def _pixel_values(app: App, seen: Rectangle) -> None:
 
 
 def _outline(app: App) -> None:
-    """Around the selected object, so that it is seen which one it is."""
+    """Draw the outline of the selected object."""
     shape = app.selected_shape
     if shape is None or shape.hidden:
         return
@@ -161,7 +161,7 @@ def _outline(app: App) -> None:
     places = (lines * (width, height) + here).tolist()
     painter.push_clip_rect(here, (left + width, top + height), True)
     dark, bright = (imgui.get_color_u32(color) for color in _OUTLINE)
-    for color, thickness in ((dark, 3.0), (bright, 1.5)):  # seen on any picture
+    for color, thickness in ((dark, 3.0), (bright, 1.5)):  # visible on any picture
         for start, end in places:
             painter.add_line(start, end, color, thickness)
     painter.pop_clip_rect()
@@ -171,9 +171,10 @@ _edges = kept_for_the_same(outline)
 
 
 def _mouse(app: App, here: ImVec2, room: ImVec2) -> None:
-    """Left drags by the mode, right the other way, middle shifts; the wheel dollies.
+    """Move the camera by drags and the wheel; with Ctrl, they change the zoom instead.
 
-    With Ctrl, the wheel and drags are those of the zoom.
+    A left drag turns by the mode, orbit or fly, and a right drag by the other one. A middle drag
+    shifts, and the wheel dollies.
     """
     io = imgui.get_io()
     is_zoom = "ctrl" in modifiers()
@@ -183,7 +184,7 @@ def _mouse(app: App, here: ImVec2, room: ImVec2) -> None:
         app.zoom = app.zoom.about((room.x, room.y), size, at, factor)
     elif imgui.is_item_hovered() and io.mouse_wheel:
         app.wheel(io.mouse_wheel)
-    if imgui.is_item_activated():  # in a slow frame the way to the button's press is in it, too
+    if imgui.is_item_activated():  # in a slow frame, the motion before the press counts too
         return
     if not imgui.is_item_active() or (io.mouse_delta.x == 0 and io.mouse_delta.y == 0):
         return
@@ -199,7 +200,7 @@ def _mouse(app: App, here: ImVec2, room: ImVec2) -> None:
 
 
 def _clicks(app: App) -> None:
-    """A click selects, with Alt it focuses; a double click sets the pivot."""
+    """Select by a click or ask for paths, focus by Alt and a click, and pivot by a double click."""
     left, share = imgui.MouseButton_.left.value, _share_under_mouse(app)
     if not imgui.is_item_hovered() or imgui.is_mouse_dragging(left):
         return

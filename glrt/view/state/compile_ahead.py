@@ -1,7 +1,7 @@
 """Compile a kernel in another process, so that the window finds it in the driver's cache.
 
-Drivers compile for 0.3 s and more, in which a window would stand still. `python -m
-glrt.view.state.compile_ahead` reads from its input what is to be compiled.
+Drivers compile for 0.3 s and more, during which the window would freeze. `python -m
+glrt.view.state.compile_ahead` reads from its input what to compile.
 """
 
 import subprocess
@@ -25,10 +25,10 @@ _ROUTES: tuple[Choice, ...] = ("egl", "window")
 
 
 class CompileAhead:
-    """The process, seen from the window."""
+    """The process that compiles, as the window controls it."""
 
     def __init__(self, renderer: Renderer) -> None:
-        """Begin with the baked kernel of a renderer; OSError if no process can be started."""
+        """Start to compile the baked kernel of a renderer; OSError if no process can be started."""
         with TemporaryFile("w+", encoding="utf-8") as part:
             part.write(part_of(renderer))
             part.seek(0)
@@ -41,22 +41,22 @@ class CompileAhead:
 
     @property
     def is_over(self) -> bool:
-        """Whether the process has ended, for better or worse."""
+        """Whether the process has ended, with or without success."""
         return self._process.poll() is not None
 
     @property
     def succeeded(self) -> bool:
-        """Whether the driver took the kernel, once the process is over."""
+        """Whether the process has ended and the driver has compiled the kernel."""
         return self._process.poll() == 0
 
     def end(self) -> None:
-        """Stop the process: nobody needs its kernel now."""
+        """Stop the process: its kernel is no longer needed."""
         self._process.kill()
         self._process.communicate()
 
 
 def part_of(renderer: Renderer) -> str:
-    """What a renderer traces, in two lines."""
+    """Return what a renderer traces, in two lines: its layering, and a recipe as JSON."""
     plan = renderer.plan
     recipe = Recipe(
         scene=plan.scene,
@@ -70,9 +70,9 @@ def part_of(renderer: Renderer) -> str:
 
 
 def compile_part(part: str) -> None:
-    """Compile the baked kernel of a part, as `part_of` writes it.
+    """Compile the baked kernel of a part, in the format of `part_of`.
 
-    ContextError if the driver of the window cannot be opened here.
+    Raises ContextError if the driver of the window cannot be opened in this process.
     """
     first, rest = part.split("\n", 1)
     layering: Layering = next(name for name in get_args(Layering) if name == first)
@@ -82,7 +82,7 @@ def compile_part(part: str) -> None:
 
 @contextmanager
 def _ready(recipe: Recipe, layering: Layering) -> Iterator[Renderer]:
-    """A renderer of a small part of the picture, by the kernel that the window has."""
+    """Yield a renderer of a small part of the picture, with the same kernel as the window."""
     pipeline: Resolved = "fragment" if recipe.pipeline == "fragment" else "compute"
     context = _same_driver(recipe.renderer, pipeline)
     settings = _cropped(recipe.settings)
@@ -113,9 +113,9 @@ def _cropped(settings: Settings) -> Settings:
 
 
 def _small(side: int) -> int:
-    """A short side for a picture that is compiled for alike.
+    """Return a short side, in pixels, for which the same kernel is compiled.
 
-    llvmpipe compiles a kernel apart for textures whose sides are powers of two.
+    llvmpipe compiles another kernel for textures whose sides are powers of two.
     """
     return min(side, 32 if side & (side - 1) == 0 else 24)
 

@@ -1,4 +1,4 @@
-"""What an edit costs at present: by what the film keeps apart."""
+"""Present cost of an edit, which depends on the layers of the film."""
 
 from typing import Literal
 
@@ -10,11 +10,11 @@ from glrt.scene.values import Radiance
 from glrt.settings import Cost
 from glrt.view.state.session import Session
 
-Reach = tuple[int, Cost]  # the largest value with the cost that is told, and the cost beyond
+Reach = tuple[int, Cost]  # the largest value with the usual cost, and the cost beyond it
 
 
 def cost_of_light(session: Session, group: str) -> Cost:
-    """Of another intensity of a light group."""
+    """Return the cost of another intensity of a light group."""
     layers, _ = _lamps(session.scene)
     shares = [other for other in layers if layers[other] == layers.get(group)]
     if len(shares) == 1 and session.layering == "groups":
@@ -24,7 +24,7 @@ def cost_of_light(session: Session, group: str) -> Cost:
 
 
 def cost_of_tint(session: Session, name: str) -> Cost:
-    """Of another colour of the lamps of one material: in each group that they are in."""
+    """Return the cost of another colour of a material's lamps, in all their light groups."""
     groups = {finish.group for finish in _finishes(session.scene) if finish.material == name}
     _, lamps = _lamps(session.scene)
     is_weighed = groups and all(_is_one_tint(session, group, lamps) for group in groups)
@@ -33,7 +33,7 @@ def cost_of_tint(session: Session, name: str) -> Cost:
 
 
 def reach_of_bounces(session: Session) -> Reach | None:
-    """Up to which limit the layers weigh it, and what one beyond costs; None without layers.
+    """Return the bounces up to which layers are reweighted, and the cost beyond; None: no layers.
 
     The last layer holds the light of all longer paths together.
     """
@@ -47,19 +47,19 @@ def reach_of_bounces(session: Session) -> Reach | None:
 
 
 def traced_bounces(session: Session) -> int:
-    """The limit that the paths of the film were traced to: the picture may show fewer."""
+    """Return the bounces that the paths of the film were traced to; the picture may show fewer."""
     renderer = None if session.is_behind else session.renderer
     return renderer.plan.settings.bounces if renderer else session.settings.bounces
 
 
 def limit_beyond(session: Session) -> int | None:
-    """That limit, where the picture shows fewer."""
+    """Return `traced_bounces` if the picture shows fewer, else None."""
     traced = traced_bounces(session)
     return None if traced == session.settings.bounces else traced
 
 
 def reach_of_size(session: Session, side: Literal["width", "height"]) -> Reach | None:
-    """Up to which size there is room for layers; beyond is another kernel. None without layers."""
+    """Return the largest side with room for layers, and the cost beyond; None without layers."""
     layers = session.room.layers(session.scene, session.settings, session.layering)
     if not layers:
         return None
@@ -68,7 +68,7 @@ def reach_of_size(session: Session, side: Literal["width", "height"]) -> Reach |
 
 
 def _is_one_tint(session: Session, group: str, lamps: dict[str, list[Radiance]]) -> bool:
-    """Whether any colour of a lamp is a factor of what was traced: it has the group for itself."""
+    """Whether a colour is a factor of the traced light: of one lamp alone, with no channel 0."""
     plan = session.renderer.plan if session.renderer else None
     traced = plan.facts.emissions.get(group, []) if plan else []
     return len(lamps.get(group, [])) <= 1 and all(all(light) for light in traced)
@@ -76,7 +76,7 @@ def _is_one_tint(session: Session, group: str, lamps: dict[str, list[Radiance]])
 
 @kept_for_the_same
 def _lamps(scene: Scene) -> tuple[dict[str, int], dict[str, list[Radiance]]]:
-    """The layer of each light group, and what its lamps emit."""
+    """Return the layer of each light group, and the emissions of its lamps."""
     facts = SceneFacts(scene)
     return layer_of_group(facts), facts.emissions
 

@@ -1,7 +1,7 @@
-"""A filter in a process of its own: it takes no time from frames, and ends with the window.
+"""Denoiser in a process of its own: it takes no time from frames, and ends with the window.
 
-`python -m glrt.view.state.denoise_process` reads two halves and the name of a filter from its
-input, and writes the picture that these make, pickled both.
+`python -m glrt.view.state.denoise_process` reads two halves of the samples and the name of a
+filter from its input, and writes the denoised picture. Both are pickled.
 """
 
 import pickle
@@ -17,15 +17,15 @@ COMMAND = [sys.executable, "-m", "glrt.view.state.denoise_process"]
 
 
 class DenoiseProcess:
-    """The process: one thread waits for it, another may end it."""
+    """The denoising process: one thread waits for it, another may end it."""
 
     def __init__(self) -> None:
-        """Nothing is started yet."""
+        """Start nothing yet."""
         self._process: subprocess.Popen[bytes] | None = None
         self._is_ended, self._lock = False, Lock()
 
     def run(self, halves: tuple[Half, Half], name: str) -> Denoised | None:
-        """What the filter makes of the halves; None if it was ended, or failed."""
+        """Denoise two halves by the filter of this name; None if that was ended, or failed."""
         with TemporaryFile() as given, TemporaryFile() as made:
             pickle.dump((halves, name), given)
             given.seek(0)
@@ -42,7 +42,7 @@ class DenoiseProcess:
             return found
 
     def end(self) -> None:
-        """Stop it: what it would make is of no use any more."""
+        """Stop the process: its result is no longer needed."""
         with self._lock:
             self._is_ended = True
             if self._process:

@@ -1,8 +1,8 @@
-"""The picture denoised while it is rendered on, by a process beside the window's frames.
+"""Denoise the picture while rendering goes on, by a separate process.
 
-It is filtered when its samples have doubled, and once they are all there; in between the last one
-stays. A picture that is there already has no half of its samples to judge the rest by: it is
-filtered once a fifth of them came later.
+It is filtered whenever its samples have doubled, and when it is complete; in between, the last
+result stays. A picture that exists already has no half of its samples to judge the rest by: it is
+filtered once a fifth of its samples are new.
 """
 
 from collections.abc import Iterator
@@ -25,39 +25,39 @@ from glrt.view.state.denoise_process import DenoiseProcess
 from glrt.view.state.session import Session
 
 FEWER = 1.25  # factor from the samples of the first half to those of the first picture
-NO_END = 1 << 40  # samples: halves are kept at doublings alone
+NO_END = 1 << 40  # samples: without an end, halves are kept at doublings only
 
 
 class DenoisedPicture:
-    """What a filter made last of the picture under way."""
+    """The last result of a denoiser for the picture that is being rendered."""
 
     def __init__(self, by: Denoise = "auto") -> None:
-        """By a filter, oidn where it is installed. Nothing is started before it is needed."""
+        """`by`: the denoiser; auto: oidn if it is installed. Start nothing before it is needed."""
         self._by: Denoise = by
         self._threads = ThreadPoolExecutor(1, "denoise")
         self._halver, self._process = Halver(), DenoiseProcess()
-        self._of: object = None  # what its halves are of
+        self._of: object = None  # the picture that its halves belong to
         self._task: Future[Image] | None = None
         self._tried = self._next = 0  # samples of the last picture to be filtered, of the next
         self.found: Image | None = None
 
     @property
     def is_under_way(self) -> bool:
-        """Whether something is being filtered."""
+        """Whether a picture is being filtered."""
         return self._task is not None
 
     def stop(self, session: Session) -> int | None:
-        """How many samples the picture is to have when it is kept next; None: it need not be."""
+        """Return the samples at which a half must be kept next; None if none must be kept."""
         renderer = session.renderer
         if not renderer or session.is_passing:
             return None
         settings, samples = self._filtered(renderer.settings), renderer.samples
         if self._halver.wants(settings, samples, NO_END):
-            return samples  # until its guides are there
+            return samples  # wait for its guides
         return self._halver.next_stop(settings, samples, NO_END)
 
     def follow(self, session: Session) -> None:
-        """Once a frame: take what is ready, keep a half, or begin to filter."""
+        """Take a finished result, keep a half, or begin to filter; call it once a frame."""
         of = session.restarts, session.weights if session.renderer else ()
         if of != self._of:
             self.rest()
@@ -67,16 +67,16 @@ class DenoisedPicture:
         renderer = session.renderer
         if not renderer or session.is_passing or session.is_behind:
             return
-        if not renderer.lacks(renderer.samples):  # guides lag behind where they begin late
+        if not renderer.lacks(renderer.samples):  # guides that began late have fewer samples
             self._take(renderer, session.weights, session.is_done)
 
     def fits(self, session: Session) -> bool:
-        """Whether there is something to show, of the picture that is rendered now."""
+        """Whether there is a denoised picture to show; not for previews or live probes."""
         return bool(self.found and self.found.denoising) and not session.is_passing
 
     @contextmanager
     def texture(self, gl: moderngl.Context) -> Iterator[moderngl.Texture]:
-        """What was found, as the display pass takes it; `a`: the relative error about a pixel."""
+        """Yield the result as an RGBA32F texture; `a`: relative error, about each pixel."""
         assert self.found
         shown = self.found.denoised()
         radiance, height, width = shown.radiance, *shown.radiance.shape[:2]
@@ -94,7 +94,7 @@ class DenoisedPicture:
             texture.release()
 
     def rest(self) -> None:
-        """Forget everything, and filter no more."""
+        """Stop filtering, and forget all results."""
         self._process.end()
         self._halver, self._process = Halver(), DenoiseProcess()
         self._task = self.found = None
@@ -106,7 +106,7 @@ class DenoisedPicture:
         self._threads.shutdown(cancel_futures=True)
 
     def told(self, session: Session) -> str:
-        """What is shown, or why it is not."""
+        """Return a notice on the denoised picture that is shown, or why none is."""
         renderer = session.renderer
         if not renderer or session.is_passing:
             return ""
@@ -145,6 +145,6 @@ class DenoisedPicture:
             self._next = self._next or first
 
     def _filtered(self, settings: Settings) -> Settings:
-        """The settings with the filter."""
+        """Return the settings with the denoiser, and with samples enough for it."""
         most = max(settings.samples, least_samples(settings.block))
         return with_filter(settings_for(settings, denoise=self._by, samples=most))

@@ -1,4 +1,4 @@
-"""The error of a picture over time, and a forecast of when it will be small enough."""
+"""Error of a picture over time, and a forecast of when it will reach a target."""
 
 import math
 from collections.abc import Hashable
@@ -13,21 +13,21 @@ from glrt.rendering.renderer import Renderer
 from glrt.view.state.histogram import DARK, Histogram, histogram
 from glrt.view.state.session import Session
 
-GROWTH = 1.25  # of the samples from one look at the error to the next: looking costs time
+GROWTH = 1.25  # factor of the samples between looks at the error: a look takes time
 PAUSE = 0.5  # seconds between two looks, at least
-MARGIN = 1.6  # factor beyond the looks that a plot of them shows: its square is more than 5 / 2
+MARGIN = 1.6  # factor by which a plot exceeds its looks: its square is more than 5 / 2
 EMPTY = (0.1, 100.0, 0.01, 1.0)  # the limits of a plot that has no line yet
 
 
 class Look(NamedTuple):
-    """What is known of a picture after some samples and seconds of rendering."""
+    """Figures of a picture after some samples and seconds of rendering."""
 
     samples: int
     seconds: float
     band: Band  # of the relative error
     mean: float = 1.0  # radiance, over pixels and channels
     nonfinite: int = 0  # samples that were dropped
-    is_doubtful: bool | None = None  # whether the error is not to be believed; None: not known
+    is_doubtful: bool | None = None  # whether the error may be far too small; None: not known
     histogram: Histogram = DARK
 
     @property
@@ -37,7 +37,7 @@ class Look(NamedTuple):
 
 
 def look_at(renderer: Renderer, weights: Weights, seconds: float) -> Look | None:
-    """Read a picture as its light is weighed; None for one that knows no error yet."""
+    """Read a picture, its layers weighted, and return its figures; None without an error yet."""
     film = renderer.film
     radiance, stderr = renderer.picture(weights)
     band = error_band(radiance, stderr)
@@ -54,10 +54,10 @@ def look_at(renderer: Renderer, weights: Weights, seconds: float) -> Look | None
 
 
 class Progress:
-    """Looks at one picture, from its first sample on; those under another light stay apart."""
+    """Looks at one picture since its first sample, separate from looks under another light."""
 
     def __init__(self) -> None:
-        """No look yet."""
+        """Begin without a look."""
         self.looks: list[Look] = []
         self._relit: list[Look] = []  # under another light
         self._picture: Hashable = None
@@ -65,7 +65,7 @@ class Progress:
         self._looked = 0.0
 
     def follow(self, session: Session, now: float) -> Look | None:
-        """A frame: forget another picture, and look at this one where that is due."""
+        """Look at the picture if that is due, and return the look; call it once a frame."""
         renderer = session.renderer
         if not renderer:
             return None
@@ -80,9 +80,9 @@ class Progress:
         return look
 
     def begin(self, picture: Hashable, light: Hashable) -> None:
-        """Forget the looks at another picture; put those under another light aside.
+        """Forget the looks at another picture; set those under another light aside.
 
-        `picture` tells pictures apart: it changes with each restart.
+        `picture` identifies the picture: it changes with each restart.
         """
         if picture != self._picture:
             self.looks, self._relit = [], []
@@ -93,7 +93,7 @@ class Progress:
     def is_due(self, samples: int, now: float, is_done: bool = False) -> bool:
         """Whether to look at the error now.
 
-        A picture that `is_done` is looked at once more: its error is that of all its samples.
+        A picture that `is_done` is looked at once more, for the error of all its samples.
         """
         least = GROWTH * self.looks[-1].samples if self.looks else 2
         if is_done and self.looks:
@@ -101,7 +101,7 @@ class Progress:
         return samples >= least and now - self._looked >= PAUSE
 
     def record(self, look: Look | None, now: float) -> None:
-        """Remember a look, and when it was, whether it told anything or not."""
+        """Remember the time of a look, and the look unless it is None."""
         self._looked = now
         self.looks += [look] if look else []
 
@@ -112,23 +112,23 @@ class Progress:
 
     @property
     def drawn(self) -> list[Look]:
-        """The looks that logarithmic axes have a place for: a black picture has no error."""
+        """Looks that logarithmic axes can show: a black picture has no error."""
         return _placed(self.looks)
 
     @property
     def relit(self) -> list[Look]:
-        """Those under another light."""
+        """Looks under another light that logarithmic axes can show."""
         return _placed(self._relit)
 
     def remaining(self, target: float) -> float | None:
-        """Seconds of rendering to an error, which falls with the root of time; None if unknown."""
+        """Return seconds of rendering left to an error, as 1 / sqrt(time); None if unknown."""
         if not self.looks:
             return None
         last = self.looks[-1]
         return max(0.0, last.seconds * ((last.error / target) ** 2 - 1))
 
     def samples_to(self, target: float) -> int | None:
-        """Samples to an error, to two digits upwards; None if unknown."""
+        """Return the samples for an error, rounded up to two digits; None if unknown."""
         if not self.looks:
             return None
         needed = self.looks[-1].samples * (self.looks[-1].error / target) ** 2
@@ -136,9 +136,9 @@ class Progress:
         return unit * math.ceil(needed / unit)
 
     def limits(self) -> tuple[float, float, float, float]:
-        """First and last second, least and largest error of a plot of the looks.
+        """Return first and last second, least and largest error, as limits of a plot of the looks.
 
-        However near the looks lie to each other, a tick of 1, 2 or 5 is between the limits.
+        However close the looks are, there is a tick of 1, 2 or 5 between the limits.
         """
         looks = [*self.relit, *self.drawn]
         if len(looks) < 2:
@@ -150,7 +150,7 @@ class Progress:
         return ends[0] * least, ends[1] * most, ends[2] * least, ends[3] * most
 
     def slope(self) -> tuple[list[float], list[float]]:
-        """Seconds and errors of the line of slope -1/2 through the last look."""
+        """Return seconds and errors of the line of slope -1/2 through the last look."""
         first, last = self.drawn[0], self.drawn[-1]
         seconds = [first.seconds, last.seconds]
         return seconds, [last.error * (last.seconds / max(s, 1e-9)) ** 0.5 for s in seconds]

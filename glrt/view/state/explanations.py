@@ -1,4 +1,4 @@
-"""What a control changes of the light transport, in two or three sentences with the equation.
+"""Explanations of what a control changes in the light transport, with the equation.
 
 L is radiance, f the reflectance of a surface (its BSDF), p a density, c the cosine at a surface.
 """
@@ -43,9 +43,9 @@ EXPLANATIONS: dict[str, str] = {
         "the picture is too dark where points are hidden from some."
     ),
     "caustics": (
-        "on: paths from the lamps, too, linked to the camera at surfaces that are not smooth. Each way to find "
-        "light is weighed by p^2 / (p^2 + q^2 + r^2), so the mean stays; light that glass or "
-        "mirrors focus has far less noise."
+        "on: paths from the lamps, too, linked to the camera at surfaces that are not smooth. Each "
+        "way to find light is weighed by p^2 / (p^2 + q^2 + r^2), so the mean stays; light that "
+        "glass or mirrors focus has far less noise."
     ),
     "bounces": (
         "The largest number of scattering events B on a path; light that needs more is left out. "
@@ -78,5 +78,5 @@ EXPLANATIONS: dict[str, str] = {
 
 
 def explanation_of(control: Control) -> str:
-    """Of a control by its name, or by the end of it as in "lamp emission"; "" for none."""
+    """Return the explanation for a control's name or the last word of its label; "" for none."""
     return EXPLANATIONS.get(control.name) or EXPLANATIONS.get(control.label.rpartition(" ")[2], "")

@@ -1,4 +1,4 @@
-"""What a folder holds, as a dialog shows it."""
+"""Contents of a folder, as a dialog shows them."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -8,7 +8,7 @@ from glrt.core.files import reason
 
 @dataclass(frozen=True)
 class Listing:
-    """Names in a folder, sorted without regard to case; `problem`: why there are none."""
+    """Names in a folder, sorted without regard to case; `problem`: why it cannot be read."""
 
     folders: tuple[str, ...] = ()
     files: tuple[str, ...] = ()
@@ -16,7 +16,7 @@ class Listing:
 
 
 def listing(folder: Path, suffixes: tuple[str, ...]) -> Listing:
-    """Folders, and files with one of the suffixes; without those that begin with a dot."""
+    """Return folders, and files with one of the suffixes; names with a leading dot are hidden."""
     try:
         paths = [path for path in folder.iterdir() if not path.name.startswith(".")]
         folders = [path.name for path in paths if path.is_dir()]
@@ -27,7 +27,7 @@ def listing(folder: Path, suffixes: tuple[str, ...]) -> Listing:
 
 
 def nearest_folder(path: Path) -> Path:
-    """The path itself if it is a folder, else the first one above it that is there."""
+    """Return the path if it is a folder, else the nearest existing folder above it."""
     whole = path.expanduser().absolute()
     return next(folder for folder in (whole, *whole.parents) if folder.is_dir())
 

@@ -1,4 +1,4 @@
-"""How bright a picture is: shares of its pixels by luminance."""
+"""Histogram of a picture: shares of its pixels by luminance."""
 
 from typing import Any, NamedTuple
 
@@ -11,19 +11,19 @@ _LUMINANCE = (0.2126, 0.7152, 0.0722)  # of linear sRGB (ITU-R BT.709)
 
 
 class Histogram(NamedTuple):
-    """`shares` (STEPS,) of all pixels between even stops; those beyond are in the outermost."""
+    """`shares` (STEPS,) of pixels in equal steps; the outermost hold all beyond STOPS."""
 
     stops: NDArray[np.float64]  # (STEPS,): middles of the steps
     shares: NDArray[np.float64]
     black: float  # share of pixels without light
 
     def above(self, exposure: float) -> float:
-        """The share of pixels that an exposure in EV makes brighter than white, about."""
+        """Return the share of pixels brighter than white at an exposure in EV, up to a step."""
         return float(self.shares[self.stops + exposure > 0].sum())
 
 
 def histogram(radiance: NDArray[Any]) -> Histogram:
-    """Of a picture (H, W, 3), linear sRGB."""
+    """Return the histogram of a picture (H, W, 3), linear sRGB."""
     luminance = (radiance.reshape(-1, 3).astype(np.float64) @ np.array(_LUMINANCE)).clip(0)
     lit = luminance[luminance > 0]
     low, high = STOPS

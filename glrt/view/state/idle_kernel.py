@@ -1,6 +1,6 @@
 """Use a baked kernel while nothing is edited.
 
-Another process compiles it first, into the driver's cache, so that the window does not stand still.
+Another process compiles it first, into the driver's cache, so that the window does not freeze.
 """
 
 import time
@@ -11,19 +11,19 @@ from glrt.rendering.pipelines import MOST_BAKED
 from glrt.rendering.renderer import Renderer
 from glrt.view.state.compile_ahead import CompileAhead
 
-PAUSE = 1.0  # seconds without an edit: about what compiling ahead takes of a processor
-MOST = 0.25  # seconds that the window stood still once, and never again
+PAUSE = 1.0  # seconds without an edit: about the processor time of compiling ahead
+MOST = 0.25  # seconds: after a longer freeze of the window, kernels are no longer baked
 
 
 class IdleKernel:
-    """Notices that nothing is edited, and lets a renderer make use of it."""
+    """Bakes the kernel of a renderer once nothing is edited."""
 
     def __init__(
         self,
         clock: Callable[[], float] = time.perf_counter,
         begin: Callable[[Renderer], CompileAhead] = CompileAhead,
     ) -> None:
-        """`begin` starts the process."""
+        """`begin` starts the process that compiles."""
         self._clock, self._begin = clock, begin
         self._picture = -1
         self._since = 0.0
@@ -32,9 +32,9 @@ class IdleKernel:
         self._is_off = False  # on this machine
 
     def follow(self, renderer: Renderer, picture: int) -> bool:
-        """Once a frame; whether the frame's time went into the baked kernel.
+        """Compile or take the baked kernel; return whether that took the time of this frame.
 
-        `picture` is another number whenever an edit has begun another picture.
+        Call it once a frame. `picture` is a number that changes when an edit restarts the picture.
         """
         if picture != self._picture:
             self.end()
@@ -47,7 +47,7 @@ class IdleKernel:
         return self._process.is_over and self._take(renderer, self._process)
 
     def end(self) -> None:
-        """Stop the process."""
+        """Stop the process that compiles."""
         if self._process:
             self._process.end()
         self._process = None
@@ -65,7 +65,7 @@ class IdleKernel:
 
     def _take(self, renderer: Renderer, process: CompileAhead) -> bool:
         self._process, self._is_decided = None, True
-        if not process.succeeded:  # as where a shader file is broken meanwhile
+        if not process.succeeded:  # such as after an error in an edited shader
             return False
         start = self._clock()
         try:

@@ -1,4 +1,4 @@
-"""Names of keys, and which may be bound to what."""
+"""Names of keys, default keys of the actions, and checks of key bindings."""
 
 from collections.abc import Mapping
 from string import ascii_lowercase, digits
@@ -66,7 +66,7 @@ MEANING: dict[Action, str] = {
 
 
 def with_defaults(given: Mapping[Action, tuple[str, ...]]) -> Bindings:
-    """The keys of all actions: a default one that means something else by choice is left out."""
+    """Return the keys of all actions: as given, else the defaults that no given action uses."""
     chosen = {text for chords in given.values() for text in chords}
     free = {
         action: tuple(text for text in chords if text not in chosen)
@@ -76,7 +76,7 @@ def with_defaults(given: Mapping[Action, tuple[str, ...]]) -> Bindings:
 
 
 MODIFIERS = ("ctrl", "shift", "alt")
-NAMES = (  # as Dear ImGui has them; Escape is left out, since it cancels
+NAMES = (  # as in Dear ImGui; without Escape, which cancels
     *ascii_lowercase,
     *digits,
     *(f"f{number}" for number in range(1, 13)),
@@ -90,19 +90,19 @@ NAMES = (  # as Dear ImGui has them; Escape is left out, since it cancels
 
 
 def chord(key: str, held: Mapping[str, bool]) -> str:
-    """A key and the modifiers that are held, such as "ctrl+shift+z"."""
+    """Return the name of a key with the modifiers that are held, such as "ctrl+shift+z"."""
     return "+".join([*(name for name in MODIFIERS if held[name]), key])
 
 
 def label(text: str) -> str:
-    """A chord as a user reads it: "Ctrl+Shift+Z", "Up arrow"."""
+    """Return a chord as it is shown to users: "Ctrl+Shift+Z", "Up arrow"."""
     *modifiers, key = text.split("+")
     name = key.replace("_", " ").replace("keypad", "keypad ").replace("  ", " ")
     return "+".join(part[:1].upper() + part[1:] for part in (*modifiers, name))
 
 
 def problem(bindings: Mapping[Action, tuple[str, ...]]) -> str:
-    """What is wrong with them, "" for nothing: no such key, or one that means two things."""
+    """Return what is wrong with key bindings: an unknown key, or one used twice; "" if nothing."""
     owners: dict[str, Action] = {}
     for action, chords in bindings.items():
         for text in chords:

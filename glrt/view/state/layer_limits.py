@@ -1,4 +1,4 @@
-"""Whether a driver has room for the layers of a film, which lie side by side in one texture."""
+"""Whether a driver has room for the layers of a film, which are side by side in one texture."""
 
 from glrt.plan.methods import METHODS
 from glrt.plan.plan import Layering, prepare
@@ -7,18 +7,18 @@ from glrt.settings import Settings
 
 
 class LayerLimits:
-    """What fits; a size that the driver has refused does not."""
+    """Sizes of films with layers that fit: below the largest texture, and any refused size."""
 
     def __init__(self, largest: int) -> None:
-        """`largest` is the width and the height that a texture can have, in pixels."""
+        """`largest` is the largest width and height of a texture, in pixels."""
         self.largest = largest
         self._refused = float("inf")  # pixels of all layers
         self._known: tuple[Scene, Settings, Layering, int] | None = None
 
     def fits(self, scene: Scene, settings: Settings, layering: Layering) -> bool:
-        """Whether a film of these layers can be had; one without layers always fits here.
+        """Whether a film with this layering is possible; one without layers always is.
 
-        Probes hold the light of all lamps in one: a method that has them cannot tell it apart.
+        Probes hold the light of all lamps together, so a method that uses them cannot separate it.
         """
         layers = self.layers(scene, settings, layering)
         is_narrow = layers * settings.width <= self.largest and 2 * settings.height <= self.largest
@@ -27,14 +27,14 @@ class LayerLimits:
         return is_apart and (not layers or (is_narrow and is_small))
 
     def refuse(self, scene: Scene, settings: Settings, layering: Layering) -> bool:
-        """The driver would not; returns whether a film without layers is worth a trial."""
+        """Remember that the driver refused a film; returns whether one without layers may fit."""
         layers = self.layers(scene, settings, layering)
         if layers:
             self._refused = layers * settings.width * settings.height
         return layers > 0
 
     def layers(self, scene: Scene, settings: Settings, layering: Layering) -> int:
-        """How many; kept, since a frame asks several times, and a scene may have many objects."""
+        """Return the number of layers; the last is cached, as a frame asks for it several times."""
         known = self._known
         if not (known and known[0] is scene and known[1] is settings and known[2] == layering):
             count = prepare(scene, settings, layering).layers

@@ -1,4 +1,4 @@
-"""The picture on the screen while the camera moves: see glrt/rendering/history/temporal.py."""
+"""The picture shown while the camera moves; see glrt/rendering/history/temporal.py."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -16,33 +16,33 @@ from glrt.view.edits.edited_state import State
 
 OWN_NUMBERS: dict[Number, Mode] = {"weight": "wrls", "mask": "ataa"}
 MOST_SEED = 0xFFFFFFFF
-GOLDEN = 0x9E3779B1  # from one seed to the next: far from those that users choose
+GOLDEN = 0x9E3779B1  # from one seed to the next, far from seeds that users choose
 
 
 class MovingPicture:
-    """History of a session's picture. Where the driver has no room for it, there is none."""
+    """Temporal history of a session's picture; there is none if the driver has no room for it."""
 
     def __init__(self, gl: moderngl.Context, mode: Mode = "reset") -> None:
-        """Nothing is compiled or allocated before it is needed."""
+        """Compile and allocate nothing before it is needed."""
         self._gl = gl
         self._wanted = Way(mode)
         self._temporal = Temporal(gl, self._wanted)
         self._begun = 0
 
     def begin(self) -> None:
-        """Another picture begins while edits come in a row."""
+        """Count one more picture that begins during consecutive edits."""
         self._begun += 1
 
     def reseeded(self, state: State) -> State:
-        """With random numbers that no view before had: noise that is the same does not cancel.
+        """Return the state with a seed that no earlier view had: equal noise would not cancel.
 
-        Once edits rest the picture begins anew, with its own seed and the bits of `reset`.
+        Once edits stop, the picture restarts with its own seed, and has the bits of mode `reset`.
         """
         seed = self._other_seed(state.settings.seed)
         return replace(state, settings=settings_for(state.settings, seed=seed))
 
     def alike(self, wanted: State, given: Settings, seed: int) -> State:
-        """What is wanted, in the size of a renderer, and with its seed if it comes from `seed`."""
+        """Return `wanted` in the size of `given`, and with its seed if that derives from `seed`."""
         sized = wanted.sized(*given.size)
         if given.seed not in (seed, self._other_seed(seed)):
             return sized
@@ -53,13 +53,13 @@ class MovingPicture:
         return (seed + self._begun * GOLDEN) & MOST_SEED if is_needed else seed
 
     def use(self, way: Way) -> None:
-        """Another way begins without history."""
+        """Change the way of using history, and drop the history so far."""
         if way != self._wanted:
             self._temporal.release()
             self._temporal, self._wanted = Temporal(self._gl, way), way
 
     def leave(self, renderer: Renderer, weights: Weights) -> str:
-        """Before an edit; returns what the driver refused, "" for nothing."""
+        """Keep what is shown as history before an edit; returns a refusal of the driver, or ""."""
         try:
             self._temporal.leave(renderer, weights)
         except RenderError as error:
@@ -67,7 +67,7 @@ class MovingPicture:
         return ""
 
     def prepare(self, renderer: Renderer, weights: Weights) -> str:
-        """While nothing moves, so that no edit waits for it; returns what the driver refused."""
+        """Prepare history while nothing moves, so that no edit waits; returns a refusal, or ""."""
         try:
             self._temporal.prepare(renderer, weights)
         except RenderError as error:
@@ -75,7 +75,7 @@ class MovingPicture:
         return ""
 
     def arrive(self, renderer: Renderer, cost: Cost | None) -> str:
-        """After an edit of a cost; returns what the driver refused, "" for nothing."""
+        """Bring history to the view after an edit of `cost`; returns a refusal, or ""."""
         if cost is Cost.RELIGHT:
             self._temporal.forget()
         if cost not in (Cost.RESTART, Cost.RECOMPILE):
@@ -92,33 +92,33 @@ class MovingPicture:
         return f"{error} History of earlier views is left out (temporal reset)."
 
     def forget(self) -> None:
-        """The picture is shown without history from now on."""
+        """Drop the history; the picture is shown without it from now on."""
         self._temporal.forget()
 
     def is_shown(self, renderer: Renderer | None, wanted: int) -> bool:
-        """Whether history is shown: not once the film has END samples, or all that are wanted."""
+        """Whether history is shown: not once the film has END samples, or all `wanted` ones."""
         self._temporal.end = float(min(END, wanted))
         return renderer is not None and self._temporal.is_shown(renderer)
 
     def reports(self, renderer: Renderer | None, wanted: int, number: Number) -> bool:
-        """Whether there is a number of the history that is shown."""
+        """Whether a number of the history, such as the weight of new samples, can be shown."""
         is_one = number == "history" or self._wanted.mode == OWN_NUMBERS[number]
         return is_one and self.is_shown(renderer, wanted)
 
     def told(self, renderer: Renderer, weights: Weights, number: Number) -> Told | None:
-        """That number, valid until the next call; RenderError as `texture`."""
+        """Return a number of the history, valid until the next call; raises as `texture`."""
         with self._left_out_if_refused():
             return self._temporal.told(renderer, number, weights)
 
     @property
     def end(self) -> int:
-        """The samples of the film from which on it is shown alone."""
+        """Number of samples from which on the film is shown without history."""
         return int(self._temporal.end)
 
     def texture(self, renderer: Renderer, weights: Weights) -> moderngl.Texture | None:
-        """Film and history, valid until the next call; None: the film alone is to be shown.
+        """Return film and history combined, valid until the next call; None: show the film alone.
 
-        RenderError if the driver has no room: from then on there is no history.
+        Raises RenderError if the driver has no room: from then on there is no history.
         """
         with self._left_out_if_refused():
             return self._temporal.show(renderer, weights)
@@ -131,5 +131,5 @@ class MovingPicture:
             raise RenderError(self._left_out(error)) from error
 
     def release(self) -> None:
-        """Free what the driver holds."""
+        """Release all OpenGL objects."""
         self._temporal.release()

@@ -1,4 +1,4 @@
-"""The paths of one pixel, asked for in the window and traced again by the kernel that records."""
+"""Paths of one pixel, requested in the window and traced again by the recording kernel."""
 
 import time
 from collections.abc import Iterator
@@ -14,18 +14,18 @@ from glrt.scene.scene import Scene
 from glrt.settings import Caustics, Settings, settings_for
 
 FOLLOWED = 64  # samples at most whose particles are followed
-SECONDS = 0.1  # of a frame that they may take
+SECONDS = 0.1  # of a frame for following particles
 MOST = 4096  # samples of a pixel that are traced again
 SHOWN = 8  # the brightest of them are listed
-ANNOUNCED = 2  # frames that say what is about to stop them
+ANNOUNCED = 2  # frames that announce a compilation before it blocks them
 Asked = tuple[Scene, Settings, tuple[int, int], int]
 
 
 class PathExplorer:
-    """At most one pixel at a time, of the scene and settings as they were when it was asked for."""
+    """Paths of at most one pixel, by the scene and settings at the time of the request."""
 
     def __init__(self, context: Context) -> None:
-        """Nothing is compiled before a pixel is asked for."""
+        """Compile nothing before a pixel is requested."""
         self._context = context
         self._replay: PathReplay | None = None
         self._recipe: Recipe | None = None
@@ -33,35 +33,35 @@ class PathExplorer:
         self._asked: Asked | None = None
         self._frames = 0
         self._following: Iterator[Array] | None = None
-        self._followed: list[Array] = []  # of each sample, what its particles brought
+        self._followed: list[Array] = []  # light of the particles of each sample
         self.is_choosing = False  # whether a click in the picture asks for its pixel
-        self.with_particles = False  # whether they are asked for where the picture has none
+        self.with_particles = False  # whether particles are traced even if the picture has none
         self.found: PixelPaths | None = None
-        self.shown: Path | None = None  # one of them
-        self.is_new = False  # since the panel showed them last
+        self.shown: Path | None = None  # the path on the screen
+        self.is_new = False  # whether the panel has not shown these paths yet
 
     @property
     def is_waiting(self) -> bool:
-        """Whether a pixel was asked for that is not traced yet, or its particles are not."""
+        """Whether a requested pixel or its particles are not traced yet."""
         return self._asked is not None or self._following is not None
 
     @property
     def busy(self) -> str:
-        """What the next frame waits for; "" for nothing."""
+        """Notice on what the next frame waits for; "" for nothing."""
         if self._following:
             return f"Following particles: {len(self._followed)} of {self._wanted} samples"
         is_new = self._asked and not self._is_open(*self._asked[:2])
         return "Compiling the kernel that records paths" if is_new else ""
 
     def ask(self, scene: Scene, settings: Settings, pixel: tuple[int, int], samples: int) -> None:
-        """Trace so many samples of a pixel in one of the next frames; it is in the full frame."""
+        """Request samples of a pixel of the full frame; one of the next frames traces them."""
         how: Caustics = "on" if self.with_particles else settings.caustics
         plain = settings_for(settings, aov=(), caustics=how, samples=1)
         self._asked, self._frames = (scene, plain, pixel, min(max(samples, 1), MOST)), 0
         self._following = None
 
     def advance(self) -> bool:
-        """A frame's work; whether there was some. GlrtError where paths cannot be recorded."""
+        """Do a frame's work, if any; returns whether. GlrtError if paths cannot be recorded."""
         if not self._asked:
             return self._follow()
         self._frames += 1
@@ -82,14 +82,14 @@ class PathExplorer:
 
     @property
     def _wanted(self) -> int:
-        """Samples whose particles are followed: whole observations, as in a render."""
+        """Number of samples whose particles are followed: whole observations, as in a render."""
         assert self.found
         settings = self.found.recipe.settings
         whole = settings.block * -(-settings.samples // settings.block)
         return min(whole, max(FOLLOWED, settings.block))
 
     def _follow(self) -> bool:
-        """Follow the particles of some more samples; at the end, trace those that bring most."""
+        """Follow particles for a frame, at the end trace the brightest; returns whether it did."""
         if not self._following or not self.found or not self._replay:
             return False
         start = time.perf_counter()
@@ -109,7 +109,7 @@ class PathExplorer:
         self.found = replace(found, particles=there)
 
     def show(self, sample: int) -> None:
-        """The path of a sample by its number."""
+        """Show the path of a sample by its number."""
         if self.found and self._replay and 0 <= sample < len(self.found.radiances):
             known = {path.sample: path for path in self.found.paths}
             (self.shown,) = (
@@ -119,7 +119,7 @@ class PathExplorer:
             )
 
     def is_of(self, scene: Scene) -> bool:
-        """Whether the paths are those of a scene as it is now, whatever its camera."""
+        """Whether the paths belong to the scene as it is now, whatever its camera."""
         if not self.found:
             return False
         asked, now = less_names(self.found.recipe.scene, scene)
@@ -127,12 +127,12 @@ class PathExplorer:
         return all(getattr(asked, part) == getattr(now, part) for part in parts)
 
     def forget(self) -> None:
-        """Show no paths."""
+        """Discard all paths and requests, and stop choosing pixels."""
         self.found = self.shown = self._asked = self._following = None
         self.is_choosing = False
 
     def release(self) -> None:
-        """Free what the driver holds."""
+        """Release all OpenGL objects."""
         self.forget()
         self._held.close()
         self._replay = self._recipe = None

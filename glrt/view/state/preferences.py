@@ -117,7 +117,7 @@ class Preferences(Frozen):
 
 
 def preferences_file() -> Path:
-    """Where they are kept: the user's configuration folder, as the system has it."""
+    """Return the file of the preferences, in the user's configuration folder of the system."""
     if sys.platform == "win32":
         base = Path(os.environ.get("APPDATA") or Path.home() / "AppData" / "Roaming")
     elif sys.platform == "darwin":
@@ -128,7 +128,7 @@ def preferences_file() -> Path:
 
 
 def load_preferences(file: Path) -> tuple[Preferences, str]:
-    """What the file says, the defaults where it is wrong, and what is wrong with it; "" if fine."""
+    """Read the file, with defaults for invalid values; returns also its problem, "" for none."""
     try:
         given = json.loads(file.read_text("utf-8"))
     except FileNotFoundError:
@@ -147,7 +147,7 @@ def load_preferences(file: Path) -> tuple[Preferences, str]:
 
 
 def save_preferences(preferences: Preferences, file: Path) -> str:
-    """Write them; returns what went wrong, "" for nothing. What is not default is written."""
+    """Write the preferences that differ from the defaults; returns a problem, "" for none."""
     text = preferences.model_dump_json(indent=2, exclude_defaults=True) + "\n"
     try:
         file.parent.mkdir(parents=True, exist_ok=True)

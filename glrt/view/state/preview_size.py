@@ -1,4 +1,4 @@
-"""Choose how coarsely the picture follows edits in a row, so that the frame rate is kept."""
+"""Choose how coarse the picture is during consecutive edits, so that the frame rate is kept."""
 
 from collections.abc import Callable
 
@@ -6,7 +6,7 @@ from glrt.rendering.renderer import Renderer
 
 STILL = 0.25  # seconds without an edit after which the full size is rendered
 FACTORS = tuple(2 ** (n / 4) for n in range(13))  # sizes of previews, from the whole one on
-COARSEST = round(FACTORS[-1])  # pixels of the frame, in width and height, that share one
+COARSEST = round(FACTORS[-1])  # pixels of the frame per pixel of the preview, in width and height
 FINER = (
     0.8  # of a frame's time: a finer picture is to fit into that, so that sizes do not alternate
 )
@@ -17,47 +17,47 @@ FIRST_SAMPLES = 8  # of a picture, as a moving camera shows them: later ones tak
 
 
 class Preview:
-    """Learns what a sample takes, and chooses a size by it when an edit begins the picture anew.
+    """Learns the time of a sample, and chooses a size by it when an edit restarts the picture.
 
-    A picture that an edit has begun is owed to the screen: it is not given up for a later edit
-    before it has a sample, however slow the machine, unless a coarser one is called for.
+    The picture of an edit is owed to the screen: however slow the machine, a later edit does not
+    replace it before it has a sample, unless a coarser picture is needed.
     """
 
     def __init__(self, clock: Callable[[], float]) -> None:
-        """Nothing has been measured yet: the full size is shown."""
+        """Begin with the full size, as nothing has been measured yet."""
         self._clock = clock
         self._edited = -STILL
         self._factor = 1.0
         self._edit_seconds = 0.0  # for bringing an edit to the renderer
         self._pixel_seconds = 0.0  # for a sample of a pixel
-        self._uncounted = 0.0  # seconds of frames that brought no sample, as those of AOVs
+        self._uncounted = 0.0  # seconds of frames without a sample, as those of AOVs
         self._is_owed = False
 
     @property
     def factor(self) -> float:
-        """The pixels of the frame, in width and height, that share one: 1 while nothing changes."""
+        """Pixels of the frame per preview pixel, in width and height: 1 while nothing changes."""
         return self._factor if self.is_under_way else 1.0
 
     @property
     def is_under_way(self) -> bool:
-        """Whether edits come in a row, or the picture of the last one has no sample yet."""
+        """Whether edits follow one another, or the picture of the last one has no sample yet."""
         return self._is_owed or self._clock() - self._edited < STILL
 
     def goes_on(self, pixels: int, budget: float) -> bool:
-        """Whether the picture of the edit before is to get a sample before another one begins."""
+        """Whether the picture of the last edit is to get a sample before another one begins."""
         return self._is_owed and self._fitting(pixels, budget) <= self._factor
 
     def begin(self, pixels: int, budget: float) -> None:
-        """An edit begins a picture: make a sample of the whole frame fit into `budget` seconds."""
+        """Begin the picture of an edit, at a size whose first sample fits into `budget` seconds."""
         self._edited, self._is_owed = self._clock(), True
         self._factor = self._fitting(pixels, budget)
 
     def edited(self, seconds: float) -> None:
-        """Learn what it took to bring an edit to the renderer, kernels apart."""
+        """Learn the seconds in which an edit reached the renderer, without compilations."""
         self._edit_seconds += MEMORY * (seconds - self._edit_seconds)
 
     def record(self, seconds: float, samples: float) -> None:
-        """Learn from a frame what a sample of a pixel took; one without any counts to the next."""
+        """Learn the seconds of a sample of a pixel; a frame without samples adds to the next."""
         self._uncounted += seconds
         if samples > 0:
             newest, self._uncounted = self._uncounted / samples, 0.0
@@ -65,15 +65,15 @@ class Preview:
             self._pixel_seconds = known + MEMORY * (newest - known)
 
     def deliver(self) -> None:
-        """The picture has a sample."""
+        """Note that the picture has a sample on the screen."""
         self._is_owed = False
 
     def end(self) -> None:
-        """The full size is wanted at once."""
+        """Return to the full size at once."""
         self._is_owed, self._factor = False, 1.0
 
     def work(self, renderer: Renderer, target: int, seconds: float, edit: float) -> None:
-        """Render up to `target` samples in a frame of `seconds`, `edit` of which are gone.
+        """Render up to `target` samples in a frame of `seconds`; an edit took `edit` seconds of it.
 
         The first sample may take longer, and AOVs follow it at once.
         """
@@ -94,6 +94,6 @@ class Preview:
         return next(fitting, FACTORS[-1])
 
     def _takes(self, pixels: int, factor: float) -> float:
-        """Seconds for a sample of a picture of a size; of one finer than now with a margin."""
+        """Return the seconds for a sample at a factor; with a margin if it is finer than now."""
         margin = 1.0 / FINER if factor < self._factor else 1.0
         return margin * self._pixel_seconds * pixels / factor**2

@@ -1,4 +1,4 @@
-"""What was opened last, kept in a file of the user beside the preferences."""
+"""Recently opened files, kept in a file of the user next to the preferences."""
 
 import json
 from pathlib import Path
@@ -10,7 +10,7 @@ MOST = 10
 
 
 def load_recent(file: Path) -> tuple[str, ...]:
-    """Paths and names of scenes, the last one first; nothing where the file cannot be read."""
+    """Return recent paths and scene names, the last first; empty if the file cannot be read."""
     try:
         given = json.loads(file.read_text("utf-8"))
     except (OSError, ValueError, RecursionError):
@@ -20,14 +20,14 @@ def load_recent(file: Path) -> tuple[str, ...]:
 
 
 def with_opened(recent: tuple[str, ...], source: str) -> tuple[str, ...]:
-    """With one more in front; a file by its whole path, so that it is found from anywhere."""
+    """Return the list with one more in front; a file by its absolute path, valid anywhere."""
     path = Path(source)
     name = str(path.absolute()) if path.is_file() else source
     return (name, *(other for other in recent if other != name))[:MOST]
 
 
 def save_recent(recent: tuple[str, ...], file: Path) -> str:
-    """Write them; returns what went wrong, "" for nothing."""
+    """Write the list; returns what went wrong, "" for nothing."""
     try:
         file.parent.mkdir(parents=True, exist_ok=True)
         write_text(file, json.dumps(recent, indent=2) + "\n")

@@ -1,6 +1,6 @@
-"""The picture that is kept to compare with, rendered again at the seeds of the current one.
+"""The kept picture, rendered again at the seeds of the current one to compare both.
 
-At equal seeds and samples the noise of both is the same where nothing changed: there the
+At equal seeds and samples, the noise of both is the same where nothing changed: there the
 difference is zero, and elsewhere it is that of the change.
 """
 
@@ -16,13 +16,13 @@ from glrt.view.state.session import ANNOUNCED
 
 
 class ReferenceImage:
-    """What a picture was rendered from, and a film of it where one is needed."""
+    """The scene and settings of the kept picture, and a film of it if one is needed."""
 
     def __init__(self, state: State, mean: float, context: Context) -> None:
-        """`mean`: radiance of the picture, over pixels and channels. Nothing is rendered yet."""
+        """Render nothing yet; `mean`: mean radiance of the picture over pixels and channels."""
         self.state = state
         self.mean = mean
-        self.busy = ""  # what the next frame will wait for
+        self.busy = ""  # notice on what the next frame waits for
         self._context = context
         self._renderer: Renderer | None = None
         self._mixer = Mixer(context.gl)
@@ -31,24 +31,24 @@ class ReferenceImage:
         self._answer: Weights | None = None
 
     def take(self, state: State) -> None:
-        """Another picture in the place of this one, which was rendered from `state`."""
+        """Replace the kept picture by one that was rendered from `state`."""
         self.rest()
         self.state, self._asked, self._answer = state, None, None
 
     def fits(self, other: Renderer) -> bool:
-        """Whether the pictures have one size."""
+        """Whether both pictures have the same size."""
         return (self.state.settings.width, self.state.settings.height) == other.size
 
     def samples(self, other: Renderer) -> int:
-        """Samples of each pixel at the seeds of the other picture."""
+        """Return the samples of each pixel at the seeds of the other picture."""
         if self._shared(other):
             return other.samples
         return self._renderer.samples if self._renderer else 0
 
     def catch_up(self, other: Renderer, seconds: float) -> None:
-        """Work for about so many seconds, up to the samples of the other picture.
+        """Render for about `seconds`, up to the samples of the other picture.
 
-        RenderError if the driver has no room for a second film.
+        Raises RenderError if the driver has no room for a second film.
         """
         if self._shared(other):
             return self.rest()
@@ -64,7 +64,7 @@ class ReferenceImage:
         return None
 
     def light(self, other: Renderer) -> moderngl.Texture | None:
-        """Radiance with as many samples as the other picture; None while it has fewer."""
+        """Return radiance with as many samples as the other picture; None while it has fewer."""
         weights = self._shared(other)
         if weights:
             trivial = are_trivial(weights)
@@ -75,18 +75,18 @@ class ReferenceImage:
         return renderer.film.mean
 
     def rest(self) -> None:
-        """Give the second film back."""
+        """Release the second film."""
         if self._renderer:
             self._renderer.release()
         self._renderer, self.busy, self._announced = None, "", 0
 
     def release(self) -> None:
-        """Free what the driver holds."""
+        """Release all OpenGL objects."""
         self.rest()
         self._mixer.release()
 
     def _shared(self, other: Renderer) -> Weights | None:
-        """Weights by which the other's film shows the kept picture; None if it cannot."""
+        """Return weights by which the other film shows the kept picture; None if it cannot."""
         plan = other.plan
         if plan is not self._asked:
             relit = plan.relit(self.state.scene, self._settings(other), plan.layering)
@@ -97,7 +97,7 @@ class ReferenceImage:
         return settings_for(self.state.settings, seed=other.settings.seed)
 
     def _open(self, other: Renderer) -> Renderer | None:
-        """Say that a kernel will be compiled, then compile it."""
+        """Announce for some frames, with None, that a kernel will be compiled; then compile it."""
         self.busy = "Compiling a kernel for the kept picture"
         self._announced += 1
         if self._announced <= ANNOUNCED:

@@ -1,6 +1,6 @@
 """The scene and settings that the window edits, and the renderer that follows them.
 
-Edits are gathered and reach the renderer once a frame. It knows no window.
+Edits are collected and reach the renderer once a frame. Nothing here needs the window.
 """
 
 import time
@@ -25,12 +25,12 @@ from glrt.view.state.moving_picture import MovingPicture
 from glrt.view.state.preview_noise import FirstSurface
 from glrt.view.state.preview_size import Preview
 
-ANNOUNCED = 2  # frames that say what is about to stop them
+ANNOUNCED = 2  # frames that announce a compilation before it blocks them
 LONGEST = 1.0  # seconds that a frame may take for a number of samples that the user chose
 
 
 class Session(Editing):
-    """A renderer that follows edits, a frame at a time."""
+    """Edited scene and settings, and a renderer that follows the edits frame by frame."""
 
     def __init__(
         self,
@@ -41,20 +41,20 @@ class Session(Editing):
         pipeline: Pipeline = "auto",
         rest: IdleKernel | None = None,
     ) -> None:
-        """Nothing is compiled before the first frames, which say that it will be."""
+        """Compile nothing yet; the first frames announce that a kernel will be compiled."""
         self.rest = rest
         self.pipeline = resolve(pipeline, context)
         super().__init__(State(scene, settings_for(settings, crop=None)))
         self.renderer: Renderer | None = None
         self.paused = False
-        self.waits = False  # for another picture, which is to get as many samples
-        self.alone: int | None = None  # the one length that is shown
-        self.aovs: tuple[Aov, ...] = ()  # of the view
-        self.refused: tuple[Aov, ...] = ()  # that cannot be
+        self.waits = False  # whether it gets no samples, so that another picture catches up
+        self.alone: int | None = None  # the only path length that is shown; None: all
+        self.aovs: tuple[Aov, ...] = ()  # that the view needs
+        self.refused: tuple[Aov, ...] = ()  # that the driver refused
         self.stop: int | None = None  # samples at which a frame is to end
         self.surface, self.moving = FirstSurface(), MovingPicture(context.gl)
         self.live = LiveProbes()
-        self.busy = ""  # what the next frame will wait for
+        self.busy = ""  # notice on what the next frame waits for
         self.restarts = 0
         self.rendering = 0.0  # seconds that were spent on the samples so far
         self.last_cost: Cost | None = None
@@ -70,22 +70,22 @@ class Session(Editing):
 
     @property
     def known_from(self) -> int:
-        """The samples from which on an error is known: of two observations."""
+        """Number of samples from which on an error is known: those of two observations."""
         return 2 * (self.renderer or self).settings.block
 
     @property
     def layering(self) -> Layering:
-        """What layers are to hold: none of fragment shaders, or of a film too large for them."""
+        """Content of the film's layers; "none" for fragment shaders, or if there is no room."""
         return "none" if self.pipeline == "fragment" or self.lacks_room else self.state.layering
 
     @property
     def lacks_room(self) -> bool:
-        """Whether the film is too large to keep layers: then lamps and bounces restart."""
+        """Whether the film is too large for layers: then edits of lamps and bounces restart."""
         return not self.room.fits(self.scene, self.settings, self.state.layering)
 
     @property
     def weights(self) -> Weights:
-        """What the film is shown by: as wanted, or one length of paths alone."""
+        """Weights of the film's layers on the screen: as edited, or of one path length alone."""
         assert self.renderer
         plan = self.renderer.plan
         is_alone = self.alone is not None and plan.layering == "lengths" and plan.layers
@@ -93,18 +93,18 @@ class Session(Editing):
 
     @property
     def is_preview(self) -> bool:
-        """Whether the renderer is at less than full size."""
+        """Whether the renderer works at less than full size."""
         return self.renderer is not None and self.renderer.settings.width != self.settings.width
 
     @property
     def is_passing(self) -> bool:
-        """Whether the picture does not last: at less than full size, or by live probes."""
+        """Whether the picture is temporary: at less than full size, or by live probes."""
         is_live = self.renderer is not None and self.renderer.probes.hysteresis is not None
         return self.is_preview or is_live
 
     @property
     def is_shown(self) -> bool:
-        """Whether there is something to show; of a preview, all that is wanted of it."""
+        """Whether there is something to show; a preview is shown only with its AOVs."""
         if not self.renderer or not self.samples:
             return False
         has_aovs = not self.renderer.settings.aov or self.renderer.shown[1] > 0
@@ -121,12 +121,12 @@ class Session(Editing):
 
     @property
     def lag(self) -> float:
-        """The share of the light in live probes that is from before the last edit; else 0."""
+        """Share of the light in live probes that is from before the last edit; else 0."""
         return self.renderer.probes.lag if self.renderer else 0.0
 
     @property
     def _hysteresis(self) -> float | None:
-        """Of the probes of the next picture; None: they do not go on."""
+        """Hysteresis of the probes for the next picture; None if they are not live."""
         return self.live.kept(self.settings, self._preview.is_under_way)
 
     @property
@@ -138,14 +138,14 @@ class Session(Editing):
         return not self.is_behind and not self.is_preview and (waits or not is_short)
 
     def restart(self) -> None:
-        """Begin to accumulate anew."""
+        """Restart the picture from its first sample."""
         if self.renderer:
             self.renderer.restart()
             self.moving.forget()
             self._begin()
 
     def advance(self, seconds: float, count: int = 0) -> None:
-        """A frame: bring edits to the renderer, then render for a time or `count` samples."""
+        """Render a frame: apply edits, then render for `seconds`, or `count` samples if given."""
         start = self._clock()
         if self._apply_pending(seconds) and self.renderer:
             target = self.samples if self.waits else 1 if self.paused else self.settings.samples
@@ -157,7 +157,7 @@ class Session(Editing):
                 self._render(self.renderer, target, seconds, self._clock() - start)
 
     def reload_shaders(self) -> None:
-        """Compile the shaders again, within `files_anew`; RenderError, and the old kernel stays."""
+        """Compile the shaders again, within `files_reread`; a RenderError keeps the old kernel."""
         if not self.renderer:
             return
         fresh = self._open(self._wanted())
@@ -170,14 +170,14 @@ class Session(Editing):
         return Renderer(state.scene, state.settings, self.context, apart="moved", **ways)
 
     def image(self) -> Image:
-        """The picture, error and recipe, without AOVs of the view; UsageError for a preview."""
+        """Return picture, error and recipe, without AOVs of the view; UsageError for a preview."""
         if self.is_preview:
             raise UsageError("There is no picture of all pixels yet.")
         assert self.renderer
         return self.renderer.image(self.weights).with_aovs(self.settings.aov)
 
     def release(self) -> None:
-        """Free what the driver holds."""
+        """Release all OpenGL objects."""
         if self.rest:
             self.rest.end()
         self.moving.release()
@@ -194,7 +194,7 @@ class Session(Editing):
             self.problem = self.moving.prepare(renderer, self.weights) or self.problem
 
     def _apply_pending(self, seconds: float) -> bool:
-        """Whether there is something to render; what compiles is announced first."""
+        """Apply edits, after announcing a compilation; returns whether there is a renderer."""
         cost = self._pending_cost()
         if cost is Cost.RECOMPILE and self._announced < ANNOUNCED:
             self.busy = "Compiling a kernel for this scene"
@@ -223,9 +223,9 @@ class Session(Editing):
         return self.renderer is not None
 
     def _go_on(self) -> None:
-        """Another picture of the same scene, by live probes."""
+        """Begin another picture of the same scene, by live probes."""
         self.moving.begin()
-        if self._update_renderer() is None and self.renderer:  # not even by other random numbers
+        if self._update_renderer() is None and self.renderer:  # nothing changed, not even the seed
             self.renderer.restart()
             self._begin()
 
@@ -256,7 +256,7 @@ class Session(Editing):
         self.restarts, self.rendering = self.restarts + 1, 0.0
 
     def _refuse(self, error: GlrtError) -> None:
-        """Tell, and go back to what the renderer has; without one there is nothing to do."""
+        """Report an error and go back to the renderer's state; without a renderer, raise it."""
         self.problem, self.refused = str(error), self.aovs
         self._preview.end()
         if not self.renderer:
@@ -267,7 +267,7 @@ class Session(Editing):
         self.state = State(self.renderer.scene, settings, by_length).sized(*self._full_size)
 
     def _pending_cost(self) -> Cost | None:
-        """Of the edits that the renderer lacks; the size of a preview is none."""
+        """Return the cost of edits that the renderer lacks; the size of a preview is no edit."""
         renderer = self.renderer
         if not renderer:
             return Cost.RECOMPILE
@@ -281,7 +281,7 @@ class Session(Editing):
         return Cost.RESTART if is_resized and cost is not Cost.RECOMPILE else cost
 
     def _wanted(self) -> State:
-        """What the renderer is to show: while edits restart it, at a size that keeps up."""
+        """Return the state to render; while edits restart it, at a size that keeps frames fast."""
         factor = self._preview.factor
         shown = self.aovs or (NEEDED if factor > 1 and self.surface.is_wanted else ())
         state = State(self.scene, self.settings).showing(*shown).coarser(factor)

@@ -1,4 +1,4 @@
-"""Why nothing but black is on the screen: light that is off, or a camera where none comes."""
+"""Find why the picture is black: lights that are off, or a camera that no light reaches."""
 
 from collections.abc import Hashable
 
@@ -12,24 +12,24 @@ from glrt.view.viewport.orbit import axes
 from glrt.view.viewport.pick import first_along
 from glrt.view.viewport.picture import Picture
 
-FAINT = 1e-7  # radiance: what is darker is black at every exposure of the slider
-PATHS = 20_000  # after so many, a picture that is to show anything has most likely shown some of it
+FAINT = 1e-7  # radiance: below it, pixels are black at every exposure of the slider
+PATHS = 20_000  # after so many, a picture that is not black has most likely shown some light
 
 
 class Blackness:
-    """Looks at a picture after PATHS, twice as many, and so on: to read it takes time.
+    """Checks a picture after PATHS paths, twice as many, and so on: reading it takes time.
 
-    And once more when it is complete.
+    It is checked once more when it is complete.
     """
 
     def __init__(self) -> None:
-        """Nothing was seen yet."""
+        """Begin without a check."""
         self.reason = ""  # why the picture is black; "" where it is not, or not known to be
         self._content: Hashable = None
-        self._seen = 0  # samples, at the last look
+        self._seen = 0  # samples, at the last check
 
     def look(self, session: Session, picture: Picture) -> None:
-        """A frame, after the picture was drawn."""
+        """Check the picture if that is due; call it once a frame, after the picture is drawn."""
         settings, renderer = session.settings, session.renderer
         if not renderer or session.is_preview or not session.samples:
             self.reason, self._content = "", None
@@ -46,7 +46,7 @@ class Blackness:
 
 
 def why_black(session: Session, renderer: Renderer) -> str:
-    """What is most likely the reason, in a sentence."""
+    """Return the most likely reason in a sentence."""
     scene = renderer.scene
     if renderer.picture(session.weights)[0].max() > FAINT:
         return "Black at this exposure: the light in view is too dim for the screen"
@@ -61,7 +61,7 @@ def why_black(session: Session, renderer: Renderer) -> str:
 
 
 def shines(scene: Scene) -> bool:
-    """Whether something emits light that is not turned off: an object, the sun or the sky."""
+    """Whether something emits light and is not turned off: an object, the sun or the sky."""
     groups = {scene.finish(shape).group for shape in scene.visible}
     groups |= {SUN_GROUP} if scene.sun else set()
     groups |= {SKY_GROUP} if any(map(any, scene.background.gradient)) else set()
@@ -69,7 +69,7 @@ def shines(scene: Scene) -> bool:
 
 
 def surrounding(scene: Scene) -> int | None:
-    """The object that is met first to all six sides of the camera, if one is."""
+    """Return the object that is hit first on all six sides of the camera; None if not one is."""
     eye = np.array(scene.camera.position)
     sides = [sign * np.array(axis) for axis in axes(scene.camera) for sign in (1.0, -1.0)]
     first = first_along(scene, eye, sides[0])

@@ -1,4 +1,4 @@
-"""How far the picture is from the kept one, as numbers."""
+"""Difference of the picture from the kept one, in numbers."""
 
 from typing import NamedTuple
 
@@ -9,11 +9,11 @@ from glrt.core.text import counted
 from glrt.error.estimate import relative_error
 from glrt.rendering.pass_film import Array
 
-GROWTH = 1.25  # of samples, after which it is worth to look again
+GROWTH = 1.25  # factor of the samples after which the numbers are taken again
 
 
 class Difference(NamedTuple):
-    """Of two pictures with so many samples of each pixel, at equal seeds."""
+    """Difference of two pictures with the same samples of each pixel, at equal seeds."""
 
     brighter: float  # mean radiance over that of the kept one, less 1; NaN if that is black
     pixels: float  # relative RMS difference, as `relative_error` takes it
@@ -21,7 +21,7 @@ class Difference(NamedTuple):
 
     @property
     def told(self) -> str:
-        """In words: B is the picture that is edited, A the kept one."""
+        """The difference in words: B is the picture that is edited, A the kept one."""
         how = "brighter" if self.brighter >= 0 else "darker"
         mean = f"{100 * abs(self.brighter):.3g} % {how}, in the mean,"
         samples = counted(self.samples, "sample")
@@ -34,7 +34,7 @@ class Difference(NamedTuple):
 
 
 def difference_of(here: moderngl.Texture, there: moderngl.Texture, samples: int) -> Difference:
-    """Of a picture from the kept one: radiance in RGBA32F textures of one size."""
+    """Return the difference of a picture from the kept one: RGBA32F textures of one size."""
     radiance, kept = _read(here), _read(there)
     means = (float(values.mean(dtype=np.float64)) for values in (radiance, kept))
     mean, before = means
@@ -43,6 +43,6 @@ def difference_of(here: moderngl.Texture, there: moderngl.Texture, samples: int)
 
 
 def _read(texture: moderngl.Texture) -> Array:
-    """(H, W, 3) float32."""
+    """Return the radiance in a texture, (H, W, 3) float32."""
     width, height = texture.size
     return np.frombuffer(texture.read(), np.float32).reshape(height, width, 4)[..., :3]

@@ -3,8 +3,8 @@
 Angles are in degrees. A drag is a share of the window's width and height, so that it turns the
 camera as far in a small window as in a large one. Vectors are float64.
 
-A motion to where a camera cannot be is a `UsageError`, and so is one to where float64 would not
-tell the direction that it looks in.
+A move raises `UsageError` if a camera cannot be there, or if float64 could not resolve its
+direction of view.
 """
 
 import math
@@ -21,12 +21,12 @@ Array = NDArray[np.float64]
 
 POLE = 1.0  # degrees between the view and straight up or down that are kept free
 WHEEL = 0.9  # share of the distance that a click of the wheel leaves
-MOST_CLICKS = 100  # of a step: those beyond are dropped
-NEAREST = 1e-10  # to what is looked at, in largest coordinates: float64 tells directions there
+MOST_CLICKS = 100  # in one step: more are dropped
+NEAREST = 1e-10  # to the point looked at, in largest coordinates: float64 resolves directions there
 
 
 def axes(camera: Camera) -> tuple[Array, Array, Array]:
-    """Right, up and forward of the camera, unit vectors."""
+    """Return the unit vectors right, up and forward of the camera, (3,) each."""
     forward = _unit(_array(camera.view))
     right = _unit(np.cross(forward, _array(camera.up)))
     return right, np.cross(right, forward), forward
@@ -70,7 +70,7 @@ def dollied(camera: Camera, pivot: Vector, clicks: float) -> Camera:
 
 
 def carried(point: Vector, before: Camera, after: Camera) -> Vector:
-    """A point that goes along with the camera; it stays where it would be beyond all lengths."""
+    """Return a point moved along with the camera; unmoved if a coordinate would exceed LARGEST."""
     x, y, z = _array(point) + (_array(after.position) - _array(before.position))
     there = float(x), float(y), float(z)
     return there if all(abs(part) <= LARGEST for part in there) else point
@@ -84,17 +84,17 @@ def framed(camera: Camera, center: Vector, radius: float) -> Camera:
 
 
 def distance_to(camera: Camera, point: Vector) -> float:
-    """From the camera's position, in scene units."""
+    """Return the distance from the camera's position to a point, in scene units."""
     return math.dist(camera.position, point)
 
 
 def depth_of(camera: Camera, point: Vector) -> float:
-    """Distance along the view axis: what `focus_distance` must be for the point to be sharp."""
+    """Return the distance along the view axis: the `focus_distance` that makes a point sharp."""
     return float(np.dot(_array(point) - _array(camera.position), axes(camera)[2]))
 
 
 def _turn(camera: Camera, yaw: float, pitch: float) -> Array:
-    """The rotation, with `pitch` cut short of the poles."""
+    """Return the rotation by `yaw` and `pitch`, with `pitch` limited before the poles."""
     right, _, forward = axes(camera)
     pole = _unit(_array(camera.up))
     elevation = math.degrees(math.asin(max(-1.0, min(1.0, float(np.dot(forward, pole))))))
@@ -104,7 +104,7 @@ def _turn(camera: Camera, yaw: float, pitch: float) -> Array:
 
 
 def rotation(axis: Array, angle: float) -> Array:
-    """The matrix that turns by an angle about a unit axis, right-handed (Rodrigues)."""
+    """Return the matrix that turns by degrees about a unit axis, right-handed (Rodrigues)."""
     sine, cosine = math.sin(math.radians(angle)), math.cos(math.radians(angle))
     x, y, z = axis
     cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
@@ -113,9 +113,9 @@ def rotation(axis: Array, angle: float) -> Array:
 
 
 def _placed(camera: Camera, position: Array, look_at: Array) -> Camera:
-    """The camera elsewhere; one that is nearer than `NEAREST` already can come back."""
+    """Return the camera elsewhere; UsageError below `NEAREST`, unless it was as near before."""
     placed = replaced(camera, position=_vector(position), look_at=_vector(look_at))
-    as_near = 0.999 * _nearness(camera)  # but for the rounding of coordinates
+    as_near = 0.999 * _nearness(camera)  # allows for rounding of coordinates
     if _nearness(placed) < min(NEAREST, as_near):
         raise UsageError(
             f"The camera cannot be nearer to what it looks at than {NEAREST:g} of the largest "
@@ -125,7 +125,7 @@ def _placed(camera: Camera, position: Array, look_at: Array) -> Camera:
 
 
 def _nearness(camera: Camera) -> float:
-    """The length of the view, in units of the largest coordinate."""
+    """Return the length of the view vector, in units of the largest coordinate."""
     return math.hypot(*camera.view) / max(map(abs, (*camera.position, *camera.look_at)))
 
 

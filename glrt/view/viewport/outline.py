@@ -18,11 +18,11 @@ from glrt.scene.shapes.kinds import Shape
 Array = NDArray[np.float64]
 Segments = NDArray[np.float64]  # (n, 2, 2): ends in shares of the picture, (0, 0) upper left
 
-_NEAR = 1e-4  # of the distance to its middle: nearer to the camera's plane, lines are cut
+_NEAR = 1e-4  # of the distance to the object: lines nearer to the camera's plane are cut
 
 
 def outline(shape: Shape, camera: Camera, aspect: float) -> Segments:
-    """Where the object ends in the picture; `aspect` is width over height."""
+    """Return the outline of an object in the picture; `aspect` is width over height."""
     eye = np.array(camera.position)
     faces = _faces_of(shape)
     if faces is None:
@@ -34,7 +34,7 @@ def outline(shape: Shape, camera: Camera, aspect: float) -> Segments:
 
 
 def _circle_seen(center: Array, radius: float, eye: Array) -> Array:
-    """(n, 2, 3): where rays from the eye touch a ball; nothing from inside."""
+    """Return segments (n, 2, 3) where rays from the eye touch a ball; none from inside."""
     away = center - eye
     square = float(away @ away)
     if square <= radius**2:
@@ -45,7 +45,7 @@ def _circle_seen(center: Array, radius: float, eye: Array) -> Array:
 
 
 def _is_outer(faces: Faces, eye: Array) -> NDArray[np.bool_]:
-    """(e,): edges with a face towards the eye on one side alone, and rims."""
+    """Return (e,) whether an edge is a rim, or just one of its faces looks towards the eye."""
     is_towards = ((eye - faces.points) * faces.normals).sum(axis=1) > 0
     is_rim = (faces.neighbours < 0).any(axis=1)
     first, second = (is_towards[faces.neighbours[:, side]] for side in (0, 1))
@@ -54,7 +54,7 @@ def _is_outer(faces: Faces, eye: Array) -> NDArray[np.bool_]:
 
 
 def projected(ends: Array, camera: Camera, aspect: float, near: float) -> Segments:
-    """Segments (n, 2, 3) in the picture, cut where they come nearer than `near` to its plane."""
+    """Project segments (n, 2, 3) to the picture, cut at the depth `near` before the camera."""
     frame = {name: np.asarray(value) for name, value in pack_camera(camera, aspect).items()}
     axes = np.stack([frame[name] for name in ("right", "up", "forward")], axis=1)
     seen = (ends - np.array(camera.position)) @ axes
@@ -69,7 +69,7 @@ def projected(ends: Array, camera: Camera, aspect: float, near: float) -> Segmen
 
 
 def _cut(end: Array, other: Array, near: float) -> Array:
-    """The ends of segments, moved along them to where they are before the camera."""
+    """Return ends of segments; those at a depth below `near` are moved along to that depth."""
     with np.errstate(all="ignore"):
         share = (near - end[:, 2]) / (other[:, 2] - end[:, 2])
         moved = end + share[:, None] * (other - end)

@@ -20,7 +20,7 @@ FOV = 40.0  # degrees, of the view from outside
 
 
 class Line(NamedTuple):
-    """From one place to another, (3,) each, in scene units."""
+    """A line from one place to another, (3,) each, in scene units."""
 
     start: Array
     end: Array
@@ -28,16 +28,16 @@ class Line(NamedTuple):
 
 
 class Ball(NamedTuple):
-    """Where things are."""
+    """A ball around some points, in scene units."""
 
     center: Array
     radius: float
 
 
 def lines_of(path: Path, reach: float, eye: Vector) -> list[Line]:
-    """The segments of a path; where it leaves the scene, and to suns, a line as long as `reach`.
+    """Return the segments of a path; lines out of the scene and to suns are as long as `reach`.
 
-    Of a particle, lines to the camera at `eye` too, where it is linked.
+    A particle also has lines from its linked vertices to the camera at `eye`.
     """
     places = [np.array(vertex.position) for vertex in path.vertices]
     lines = [Line(start, end, "path") for start, end in pairwise(places)]
@@ -51,7 +51,7 @@ def lines_of(path: Path, reach: float, eye: Vector) -> list[Line]:
 
 
 def _sampled(path: Path, places: list[Array], reach: float) -> Iterator[Line]:
-    """From vertices to the points on lamps that were sampled there."""
+    """Yield lines from vertices to the points on lamps that were sampled there."""
     for light in path.contributions:
         if light.strategy == "light sampling" and light.direction is not None:
             is_near = light.distance is not None and math.isfinite(light.distance)
@@ -62,7 +62,7 @@ def _sampled(path: Path, places: list[Array], reach: float) -> Iterator[Line]:
 
 
 def surroundings(scene: Scene, path: Path) -> Ball:
-    """A ball around the camera, the path and the objects that have an end near them."""
+    """Return a ball around the camera, the path, and the middles of finite objects near them."""
     points = [np.array(vertex.position) for vertex in path.vertices]
     points += [np.array(scene.camera.position), np.array(scene.camera.look_at)]
     center = np.mean(points, axis=0)
@@ -76,7 +76,7 @@ def surroundings(scene: Scene, path: Path) -> Ball:
 
 
 def outside(ball: Ball, yaw: float, pitch: float) -> Camera:
-    """A camera that has all of a ball in sight; angles in degrees, about y and above the ground."""
+    """Return a camera that sees all of a ball; angles in degrees, about y and above the ground."""
     turn, rise = math.radians(yaw), math.radians(pitch)
     towards = np.array(
         [math.cos(rise) * math.sin(turn), math.sin(rise), math.cos(rise) * math.cos(turn)]

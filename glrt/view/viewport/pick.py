@@ -1,4 +1,4 @@
-"""Find what lies under a point of the picture: a ray against all shapes, in float64."""
+"""Find the object under a point of the picture: a ray against all shapes, in float64."""
 
 import math
 from typing import NamedTuple
@@ -17,7 +17,7 @@ from glrt.scene.values import Vector
 
 Array = NDArray[np.float64]
 
-TIE = 2.0**-18  # of a distance: surfaces within it are in one place
+TIE = 2.0**-18  # of a distance: surfaces closer than this coincide
 
 
 class Picked(NamedTuple):
@@ -28,9 +28,9 @@ class Picked(NamedTuple):
 
 
 def ray_through(camera: Camera, aspect: float, x: float, y: float) -> tuple[Array, Array]:
-    """Origin and unit direction through a point of the picture, from (0, 0) upper left to (1, 1).
+    """Return origin and unit direction through a point, from (0, 0) upper left to (1, 1).
 
-    `aspect` is width over height. Through the middle of the lens.
+    `aspect` is width over height. The ray begins in the middle of the lens.
     """
     frame = {name: np.asarray(value) for name, value in pack_camera(camera, aspect).items()}
     across = (2 * x - 1) * frame["tan_x"] * frame["right"]
@@ -40,7 +40,7 @@ def ray_through(camera: Camera, aspect: float, x: float, y: float) -> tuple[Arra
 
 
 def pick(scene: Scene, aspect: float, x: float, y: float) -> Picked | None:
-    """The nearest object under a point of the picture; None where there is nothing but sky."""
+    """Return the nearest object under a point of the picture; None where there is only sky."""
     origin, direction = ray_through(scene.camera, aspect, x, y)
     met = first_along(scene, origin, direction)
     if met is None:
@@ -51,23 +51,23 @@ def pick(scene: Scene, aspect: float, x: float, y: float) -> Picked | None:
 
 
 def first_along(scene: Scene, origin: Array, direction: Array) -> tuple[int, float] | None:
-    """The number of the object that a ray meets first, and how far away; None for none."""
-    with np.errstate(all="ignore"):  # a plane beside the ray is infinitely far
+    """Return the number and the distance of the object that a ray hits first; None for none."""
+    with np.errstate(all="ignore"):  # a plane parallel to the ray is infinitely far
         tables = _tables(scene.objects, scene.shown)
         distances = _distances(tables, len(scene.objects), origin, direction)
         for number, shape in enumerate(scene.objects):
-            if isinstance(shape, Mesh) and distances[number] < math.inf:  # its ball is met
+            if isinstance(shape, Mesh) and distances[number] < math.inf:  # its ball is hit
                 distances[number] = shape.distance(origin, direction)
     if not len(distances) or distances.min() == math.inf:
         return None
-    # Of surfaces in one place a lamp is seen first (shaders_glsl/shapes/coincident.glsl).
+    # Where surfaces coincide, a lamp is seen first (shaders_glsl/shapes/coincident.glsl).
     tied = np.flatnonzero(distances <= distances.min() * (1 + TIE)).tolist()
     index = min(tied, key=lambda n: (not scene.finish(scene.objects[n]).group, n))
     return index, float(distances[index])
 
 
 class _Table(NamedTuple):
-    """The objects of one kind, a row each; `numbers` are those of the rows in the scene."""
+    """Objects of one kind, a row each; `numbers`: the number in the scene of each row."""
 
     kind: type[Object]
     numbers: NDArray[np.intp]
@@ -86,7 +86,7 @@ def _tables(objects: tuple[Shape, ...], shown: tuple[int, ...]) -> list[_Table]:
 
 
 def _distances(tables: list[_Table], count: int, origin: Array, direction: Array) -> Array:
-    """To each object along the ray; inf if it is missed or behind."""
+    """Return the distance to each object along the ray; inf if it is missed or behind."""
     distances = np.full(count, math.inf)
     for kind, numbers, rows in tables:
         distances[numbers] = kind.distances(rows, origin, direction)

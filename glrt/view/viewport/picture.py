@@ -15,7 +15,7 @@ Part = tuple[float, float, float, float]  # left, top, width, height, in pixels 
 
 
 class Picture:
-    """What the display pass made of the film last; it stays until the film has something new."""
+    """The last result of the display pass; it stays until the film has something new."""
 
     def __init__(self, gl: moderngl.Context) -> None:
         """Compile the display pass; there is no picture yet."""
@@ -31,7 +31,7 @@ class Picture:
 
     @property
     def name(self) -> int:
-        """OpenGL's name of the texture, 0 if there is none."""
+        """OpenGL name of the texture; 0 if there is none."""
         return self._texture.glo if self._texture else 0
 
     @property
@@ -40,13 +40,13 @@ class Picture:
         return self._texture.size if self._texture else (0, 0)
 
     def draw(self, film: moderngl.Texture, settings: Settings, is_preview: bool = False) -> None:
-        """Expose, tone-map and encode; row 0 of the film comes to lie on top."""
+        """Expose, tone-map and encode a film, whose row 0 is shown on top."""
         self.paint(film.size, lambda: self._display.draw(film, settings), is_preview)
 
     def paint(
         self, size: tuple[int, int], draw: Callable[[], None], is_preview: bool = False
     ) -> None:
-        """Let something draw the whole picture."""
+        """Let `draw` fill the whole picture, of this width and height in pixels."""
         target = self._canvas.sized(size)
         assert self._texture
         magnify = moderngl.LINEAR if is_preview else moderngl.NEAREST
@@ -55,13 +55,13 @@ class Picture:
             draw()
 
     def codes(self) -> NDArray[np.uint8]:
-        """The picture as the screen has it, (H, W, 4) uint8 sRGB; its rows may be upside down."""
+        """Return the picture as on the screen, (H, W, 4) uint8 sRGB; rows may be upside down."""
         assert self._texture
         width, height = self.size
         return np.frombuffer(self._texture.read(), np.uint8).reshape(height, width, 4)
 
     def part(self, part: Part, size: tuple[int, int], is_kept: bool = False) -> int:
-        """OpenGL's name of a texture of a part of the picture, or of the kept one, magnified."""
+        """Return the OpenGL name of a magnified part of the picture, or of the kept picture."""
         texture = self._kept if is_kept else self._texture
         assert texture
         magnifier = self._magnifiers[is_kept]
@@ -69,11 +69,11 @@ class Picture:
 
     @property
     def kept_name(self) -> int:
-        """OpenGL's name of the picture that is kept to compare with, 0 if there is none."""
+        """OpenGL name of the kept picture, which others are compared with; 0 if there is none."""
         return self._kept.glo if self._kept else 0
 
     def keep(self) -> None:
-        """Keep the picture as it is now, to compare with what comes."""
+        """Keep a copy of the picture, to compare it with later ones."""
         self.forget()
         if self._texture:
             self._kept = self._gl.texture(self._texture.size, 4)
@@ -82,19 +82,19 @@ class Picture:
             target.release()
 
     def forget(self) -> None:
-        """Keep no picture."""
+        """Release the kept picture."""
         if self._kept:
             self._kept.release()
         self._kept = None
 
     def reload_shaders(self) -> None:
-        """Compile the display pass again, as `Session.reload_shaders`."""
+        """Compile the display pass again, as `Session.reload_shaders` does for the kernel."""
         fresh = Display(self._gl)
         self._display.release()
         self._display = fresh
 
     def release(self) -> None:
-        """Free what the driver holds."""
+        """Release all OpenGL objects."""
         self._display.release()
         for magnifier in self._magnifiers:
             magnifier.release()

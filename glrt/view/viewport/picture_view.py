@@ -1,4 +1,4 @@
-"""What the screen shows of a render: a view of it, and the kept picture beside it."""
+"""The render on the screen: one of its views, with the kept picture to compare it with."""
 
 from dataclasses import dataclass, field
 
@@ -47,32 +47,32 @@ class PictureView:
     aovs: AovView
     surface: SurfaceView
     balls: ProbeBalls
-    view: View = "picture"  # as wanted; see `drawn`
+    view: View = "picture"  # as requested; see `drawn`
     denoised: DenoisedPicture = field(default_factory=DenoisedPicture)
     most: float = 0.5  # relative difference that has the strongest colour
     bounces: int = 10  # the limit that the paths were traced to; the picture may show fewer
     wipe: float = 0.5  # share of the picture's width that shows the kept one
     kept: ReferenceImage | None = None
-    holds: bool = False  # the picture gets no samples: the frame is another one's
+    holds: bool = False  # whether this frame renders picture A instead
     mean: float | None = None  # radiance at the last look
     drawn: View = "picture"  # on the screen now
-    is_surface: bool = False  # in place of the picture: the first surface under simple light
+    is_surface: bool = False  # whether a preview shows the first surface instead of the light
     difference: Difference | None = None  # from the kept picture, where it is shown
-    is_old: bool = False  # what is on the screen: it lacks the last edit, which has no sample yet
-    _farthest: float = 1.0  # that probes hold, in scene units
-    _measured: object = None  # what its difference was taken of, but for samples
+    is_old: bool = False  # whether the screen lacks the last edit, which has no sample yet
+    _farthest: float = 1.0  # largest distance that probes hold, in scene units
+    _measured: object = None  # what `difference` was taken of, except samples
     _content: object = None  # what the picture was drawn from
     _restarts: int = 0  # of the session, when it was drawn
 
     @property
     def scale(self) -> Scale:
-        """Of the view."""
+        """False-colour scale of the view."""
         return scale_of(self.view, self.most, self.bounces, self._farthest)
 
     def advance(self, session: Session, seconds: float, count: int) -> None:
-        """A frame's samples; while the kept picture is compared, it gets half of the time.
+        """Render the samples of a frame; a kept picture that is compared gets half of the time.
 
-        RenderError if the driver has no room for that.
+        Raises RenderError if the driver has no room for that.
         """
         if session.refused and session.refused == gathered_for(self.view):
             self.view = "picture"
@@ -102,7 +102,7 @@ class PictureView:
         return session.is_done and not is_behind and not self.denoised.is_under_way
 
     def draw(self, session: Session) -> None:
-        """Bring the newest samples to the screen; without any the old picture stays."""
+        """Draw the newest samples; without any, the old picture stays on the screen."""
         self._draw_newest(session)
         is_before = session.is_behind or self._restarts != session.restarts
         self.is_old = bool(self.picture.name) and is_before
@@ -113,7 +113,7 @@ class PictureView:
             return
         other = kept.light(renderer) if kept else None
         if kept and other is None:
-            return  # until it has as many samples
+            return  # wait until it has as many samples
         settings, view = session.settings, self._possible(session)
         progress = renderer.shown, session.restarts, session.weights
         content = (
@@ -132,7 +132,7 @@ class PictureView:
             self._content, self.drawn, self._restarts = content, view, session.restarts
 
     def keep(self, session: Session) -> None:
-        """Keep the picture, whatever the view, to compare it with what comes."""
+        """Keep the picture, whatever the view, to compare it with later ones."""
         if not session.renderer or not session.samples:
             return
         mean = float(session.image().radiance.mean(dtype="float64"))
@@ -144,14 +144,14 @@ class PictureView:
         self._content = None
 
     def forget(self) -> None:
-        """Keep no picture."""
+        """Release the kept picture."""
         self.picture.forget()
         if self.kept:
             self.kept.release()
         self.kept = None
 
     def notice(self, session: Session) -> str:
-        """Why the view is not what was wanted, or what the next frame waits for; "" for nothing."""
+        """Return why another view is shown, or what the next frame waits for; "" for nothing."""
         renderer, kept = session.renderer, self.kept
         if session.busy or not renderer:
             return session.busy
@@ -184,7 +184,7 @@ class PictureView:
         return f"Rendering the kept picture again: {told}" if behind else ""
 
     def release(self) -> None:
-        """Free what the driver holds."""
+        """Release all OpenGL objects."""
         self.forget()
         self.denoised.release()
         self.picture.release()
@@ -194,14 +194,14 @@ class PictureView:
         self.balls.release()
 
     def _compared(self, session: Session) -> ReferenceImage | None:
-        """The kept picture if its difference is to be shown, and can be."""
+        """Return the kept picture if its difference is to be shown and can be; else None."""
         kept, renderer = self.kept, session.renderer
         if self.view != "difference" or not kept or not renderer or session.is_passing:
             return None
         return kept if kept.fits(renderer) else None
 
     def _possible(self, session: Session) -> View:
-        """The view as wanted, or the picture where that cannot be told."""
+        """Return the requested view, or the picture where that view is not available."""
         if is_filtered(self.view):
             return self.view if self.denoised.fits(session) else "picture"
         if is_of_probes(self.view):
@@ -220,7 +220,7 @@ class PictureView:
         return "picture" if self.view == "difference" and not self._compared(session) else self.view
 
     def _knows_error(self, session: Session) -> bool:
-        """Whether there are two observations, and a look at the picture or at the one before."""
+        """Whether there are two observations, and a look at this picture or the one before it."""
         film = session.renderer and session.renderer.film
         return bool(film and self.mean is not None and film.samples >= 2 * film.extent.block)
 
@@ -262,7 +262,7 @@ class PictureView:
         return self.picture.paint(film.size, paint)
 
     def _draw_filtered(self, session: Session, film: Film, view: View) -> None:
-        """The denoised picture, or its error."""
+        """Draw the denoised picture, or its error."""
         with self.denoised.texture(session.context.gl) as found:
             if view == "denoised":
                 return self.picture.draw(found, session.settings)
@@ -270,7 +270,7 @@ class PictureView:
             return self.picture.paint(film.size, lambda: draw(film, found, told, self.scale))
 
     def _draw_probes(self, session: Session, renderer: Renderer, light: moderngl.Texture) -> None:
-        """The picture with probes as balls, or their distances."""
+        """Draw the picture with probes as balls, or their distances."""
         probes, depth = renderer.probes.tracer, renderer.aov_mean("depth")
         assert probes
         assert depth
@@ -282,7 +282,7 @@ class PictureView:
         return self.picture.paint(light.size, lambda: self.colors.draw_distances(*told))
 
     def _measure(self, session: Session, light: moderngl.Texture, other: moderngl.Texture) -> None:
-        """Take the numbers of the difference, which takes longer than to draw it: now and then."""
+        """Take the numbers of the difference, only now and then: it takes longer than drawing."""
         content = session.restarts, session.weights, self.kept
         known, is_same = self.difference, content == self._measured
         is_near = known and known.samples <= session.samples < GROWTH * known.samples
@@ -291,7 +291,7 @@ class PictureView:
             self._measured = content
 
     def _draw_surface(self, session: Session, renderer: Renderer) -> None:
-        """In place of a coarse picture that is too noisy, once there is something to draw."""
+        """Draw the first surface instead of a preview that is too noisy, once it has its AOVs."""
         session.surface.judge(self.picture.codes())
         albedo, normal = map(renderer.aov_mean, NEEDED)
         self.is_surface = bool(session.surface.is_wanted and albedo and normal)

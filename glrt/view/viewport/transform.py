@@ -19,14 +19,14 @@ _CLEAR = 1.02  # heights of an object from its middle to that of its copy
 
 
 def view_matrix(camera: Camera) -> Matrix:
-    """From the world to the camera, which looks along -z."""
+    """Return the matrix from the world to the camera, which looks along -z."""
     right, up, forward = axes(camera)
     turn = np.array([right, up, -forward])
     return _flat(turn, -turn @ np.array(camera.position))
 
 
 def projection_matrix(camera: Camera, aspect: float) -> Matrix:
-    """From the camera to the clip cube; the depths that it keeps apart do not matter here."""
+    """Return the matrix from the camera to the clip cube; its near and far do not matter here."""
     focal = 1 / math.tan(math.radians(camera.fov) / 2)
     near, far = 0.01, 1000.0
     depth, shift = (far + near) / (near - far), 2 * far * near / (near - far)
@@ -34,29 +34,29 @@ def projection_matrix(camera: Camera, aspect: float) -> Matrix:
 
 
 def object_matrix(shape: Shape) -> Matrix:
-    """From a shape's own place to the world: its middle, not its size."""
+    """Return the matrix from a shape to the world: a shift to its middle, without a scale."""
     return _flat(np.eye(3), np.array(shape.middle))
 
 
 def moved_to(shape: Shape, matrix: NDArray[np.float32]) -> Shape:
-    """The shape where a gizmo has put it; scaled by the mean of the scales of the three axes."""
+    """Return the shape where a gizmo has put it, scaled by the mean scale of the three axes."""
     columns = np.asarray(matrix, np.float64).reshape(4, 4)
     step = columns[3, :3] - np.array(shape.middle)
     return scaled(shifted(shape, step), float(np.mean(np.linalg.norm(columns[:3, :3], axis=1))))
 
 
 def shifted(shape: Shape, step: NDArray[np.float64]) -> Shape:
-    """The shape moved by a vector."""
+    """Return the shape moved by a vector, in scene units."""
     return replaced(
         shape, **{name: _short(np.add(getattr(shape, name), step)) for name in _points(shape)}
     )
 
 
 def clear_of(shape: Shape, pivot: Vector, least: float) -> Shape:
-    """The shape above where it is, or below if that is above the pivot: by its own height.
+    """Return the shape moved up by its own height, or down if it is above the pivot.
 
-    Two surfaces in one place shade each other at random. What is flat or endless moves by `least`,
-    a plane along its normal; lengths are in scene units.
+    Two surfaces in one place would shade each other at random. A flat or endless shape moves by
+    `least`, a plane along its normal; lengths are in scene units.
     """
     low, high = type(shape).bounds(np.array([shape.row], np.float64))
     height, normal = float(high[0][1] - low[0][1]), getattr(shape, "normal", None)
@@ -68,7 +68,7 @@ def clear_of(shape: Shape, pivot: Vector, least: float) -> Shape:
 
 
 def scaled(shape: Shape, factor: float) -> Shape:
-    """The shape made larger about its middle; what has no size stays as it is."""
+    """Return the shape scaled about its middle; a shape without size stays as it is."""
     if factor == 1 or not (shape.extents or shape.points):
         return shape
     middle = np.array(shape.middle)
@@ -81,7 +81,7 @@ def scaled(shape: Shape, factor: float) -> Shape:
 
 
 def _points(shape: Shape) -> tuple[str, ...]:
-    """The fields that hold points of it."""
+    """Return the names of the fields that hold points of the shape."""
     return (shape.anchor, *shape.points)
 
 
@@ -92,7 +92,7 @@ def _flat(turn: NDArray[np.float64], shift: NDArray[np.float64]) -> Matrix:
 
 
 def _short(value: NDArray[np.float64]) -> Vector | float:
-    """With seven digits: a gizmo knows no more, and a scene file is to be read."""
+    """Round to seven digits: a gizmo has no more, and scene files are to be legible."""
     if value.ndim == 0:
         return _digits(float(value))
     return (_digits(value[0]), _digits(value[1]), _digits(value[2]))

@@ -68,7 +68,7 @@ TITLES: dict[View, str] = {
 
 
 def title_of(view: View, camera: Camera, limit: int | None = None) -> str:
-    """What a view shows; lengths are in scene units.
+    """Return the title of a view; lengths are in scene units.
 
     `limit`: the bounces that its paths were traced to, where the picture shows fewer of them.
     """
@@ -78,12 +78,12 @@ def title_of(view: View, camera: Camera, limit: int | None = None) -> str:
 
 
 def limit_text(limit: int | None) -> str:
-    """That counts of bounces are not those of the picture, which shows fewer; "" where they are."""
+    """Return a note that counts are of paths of up to `limit` bounces; "" for None."""
     return "" if limit is None else f", of paths of up to {limit}"
 
 
 def gathered_for(view: View) -> tuple[Aov, ...]:
-    """The AOVs that a view needs."""
+    """Return the AOVs that a view needs."""
     if is_of_probes(view):
         return ("depth",)
     aov = aov_of(view)
@@ -91,7 +91,7 @@ def gathered_for(view: View) -> tuple[Aov, ...]:
 
 
 def is_filtered(view: View) -> bool:
-    """Whether a view shows what a denoiser makes."""
+    """Whether a view shows a result of the denoiser."""
     return view in get_args(Filtered)
 
 
@@ -101,12 +101,12 @@ def is_of_probes(view: View) -> bool:
 
 
 def aov_of(view: View) -> Aov | None:
-    """The AOV that a view shows, if it shows one."""
+    """Return the AOV that a view shows; None if it shows none."""
     return next((aov for aov in get_args(Aov) if aov == view), None)
 
 
 def number_of(view: View) -> Number | None:
-    """The number of the history that a view shows, if it shows one."""
+    """Return the number of the temporal history that a view shows; None if it shows none."""
     return next((number for number in get_args(Number) if number == view), None)
 
 
@@ -116,9 +116,9 @@ def has_scale(view: View) -> bool:
 
 
 def scale_of(view: View, most: float, bounces: int, farthest: float = 1.0) -> Scale:
-    """The scale of a view in false colours; `most`: the largest difference that is told apart.
+    """Return the false-colour scale of a view; `most`: the largest difference on the scale.
 
-    `bounces` is the limit of the paths, `farthest` what probes hold at most, in scene units.
+    `bounces`: limit of the paths; `farthest`: largest distance in probes, in scene units.
     """
     if view == "bounces":
         return scale_of_bounces(bounces)
@@ -130,7 +130,7 @@ def scale_of(view: View, most: float, bounces: int, farthest: float = 1.0) -> Sc
 
 
 def ticks_of(view: View, scale: Scale) -> dict[float, str]:
-    """The numbers of a scale that are written out, and how."""
+    """Return the numbers on a scale that have labels, and the labels."""
     if view in ("error", "denoised error"):
         return {0.001: "0.1 %", 0.01: "1 %", 0.1: "10 %", 1.0: "100 %"}
     if view == "dropped":

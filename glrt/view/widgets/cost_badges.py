@@ -1,11 +1,11 @@
-"""What an edit costs, at the right edge of a row of the panel."""
+"""Tags for the cost of an edit, at the right edge of a row of the panel."""
 
 from imgui_bundle import hello_imgui, imgui
 
 from glrt.settings import Cost
 from glrt.view.controls import MEANING, Control
 
-# Hue tells the classes apart in both themes; the word stands beside it.
+# Hues distinguish the classes in both themes; each is shown with the word for its class.
 COLORS = {
     Cost.FREE: (0.30, 0.66, 0.36, 1.0),
     Cost.RELIGHT: (0.30, 0.58, 0.90, 1.0),
@@ -15,7 +15,7 @@ COLORS = {
 
 
 def legend() -> None:
-    """What the classes of cost mean."""
+    """Draw the classes of cost and their meanings."""
     for cost, meaning in MEANING.items():
         imgui.text_colored(COLORS[cost], cost.value)
         imgui.same_line(hello_imgui.em_size(5.5))
@@ -23,7 +23,7 @@ def legend() -> None:
 
 
 def tag(cost: Cost) -> None:
-    """What an edit costs, at the right edge; where the label reaches that far, behind it."""
+    """Draw the cost of an edit at the right edge; in a new line if the label leaves no room."""
     end = imgui.get_item_rect_max().x - imgui.get_window_pos().x + hello_imgui.em_size(0.5)
     own = _tags_end() - imgui.calc_text_size(cost.value).x
     if end <= own:
@@ -40,7 +40,7 @@ def tags(control: Control) -> None:
 
 
 def _tags_below(control: Control) -> None:
-    """A line for a cost that depends on the value."""
+    """Draw a line of costs that depend on the value."""
     imgui.indent()
     for number, (cost, where) in enumerate(control.costs):
         if number:
@@ -50,11 +50,11 @@ def _tags_below(control: Control) -> None:
 
 
 def tags_start() -> float:
-    """Where the widest tag still ends before the scroll bar, from the window's left edge."""
+    """Return where the widest tag begins, in pixels from the window's left edge."""
     return _tags_end() - max(imgui.calc_text_size(cost.value).x for cost in Cost)
 
 
 def _tags_end() -> float:
-    """The right edge of the panel's content, from the window's left edge."""
+    """Return the right edge of the panel's content, in pixels from the window's left edge."""
     style = imgui.get_style()
     return imgui.get_window_width() - style.scrollbar_size - style.window_padding.x

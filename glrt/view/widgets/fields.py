@@ -1,4 +1,4 @@
-"""Widgets for controls, with what an edit costs beside them: a value in, the edited one out."""
+"""Widgets for controls, with the cost of an edit: a value in, the edited value out."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -17,19 +17,19 @@ from glrt.view.widgets.steady_widget import ANCHOR
 Drawn = TypeVar("Drawn")
 
 _MOST_DIGITS = 20  # of an integer: more are beyond any limit, and Python reads 4300 at most
-LEAST = 4.0  # letters' heights across, of a widget that has its label beside it
-WORDS = 7.0  # the same of one that shows a word or a name
-_MOST_ROWS = 14  # of a list that need no scrolling
-_TIP = 28.0  # letters' heights across, of a tooltip
-_TOLD = 8.0  # letters' heights from the left edge of a list to what its words are
+LEAST = 4.0  # em, the height of a letter: least width of a widget with its label next to it
+WORDS = 7.0  # em: the same for one that shows a word or a name
+_MOST_ROWS = 14  # of a list without scrolling
+_TIP = 28.0  # em: width of a tooltip
+_TOLD = 8.0  # em: from the left edge of a list to the explanations of its words
 _NO_TOOLTIP = imgui.ColorEditFlags_.no_tooltip.value
 _LOGARITHMIC = imgui.SliderFlags_.logarithmic.value
 
 
 def edited(control: Control, value: Any, name: str = "") -> Any:
-    """Draw the widget of a control; the new value, or None if it was not touched.
+    """Draw the widget of a control; return the new value, or None if it was not touched.
 
-    `name` distinguishes controls of one label: those of two lamps, say.
+    `name` distinguishes controls with the same label, such as those of two lamps.
     """
     label = f"{control.label}##{name}" if name else control.label
     least = hello_imgui.em_size(WORDS if control.kind == "choice" else LEAST)
@@ -47,7 +47,7 @@ def _drawn_next_to(control: Control, label: str, value: Any) -> tuple[bool, Any]
 
 
 def _drawn_below(control: Control, label: str, value: Any) -> tuple[bool, Any]:
-    """Below its label, which the widget has too, so that its name is the same, but cut off."""
+    """Draw a widget below its label; the widget's own label, its id, is cut off."""
     imgui.text(control.label)
     tags(control)
     drawn = _clipped(lambda: _draw(control, label, value))
@@ -56,7 +56,7 @@ def _drawn_below(control: Control, label: str, value: Any) -> tuple[bool, Any]:
 
 
 def _clipped(draw: Callable[[], Drawn]) -> Drawn:
-    """A widget as wide as the panel, whose own label is cut off."""
+    """Draw a widget as wide as the panel, with its own label cut off."""
     corner, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail().x
     imgui.push_clip_rect(corner, corner + ImVec2(room, imgui.get_frame_height()), True)
     imgui.set_next_item_width(room)
@@ -66,7 +66,7 @@ def _clipped(draw: Callable[[], Drawn]) -> Drawn:
 
 
 def button(label: str, is_enabled: bool = True) -> bool:
-    """A button, grey where it would do nothing; whether it was pressed."""
+    """Draw a button, grey unless it is enabled; return whether it was pressed."""
     imgui.begin_disabled(not is_enabled)
     pressed = imgui.button(label)
     ANCHOR.note()
@@ -75,7 +75,7 @@ def button(label: str, is_enabled: bool = True) -> bool:
 
 
 def named(label: str, value: str, name: str) -> str:
-    """A box for a name; the new one once it is typed to its end, else ""."""
+    """Draw a box for a name; return a new name once its input ends, else ""."""
     flags = imgui.InputTextFlags_.auto_select_all.value
 
     def draw() -> tuple[str, bool]:
@@ -96,7 +96,7 @@ def named(label: str, value: str, name: str) -> str:
 
 
 def beside(text: str) -> None:
-    """Go on in this line if a button with this text has room there."""
+    """Continue in this line if a button with this text fits there."""
     imgui.same_line()
     width = imgui.calc_text_size(text).x + 2 * imgui.get_style().frame_padding.x
     if imgui.get_content_region_avail().x < width:
@@ -104,13 +104,13 @@ def beside(text: str) -> None:
 
 
 def room_for(label: str, usual: float) -> float:
-    """The width of a widget that leaves room for a label beside it, in pixels."""
+    """Return the width of a widget that leaves room for a label next to it, in pixels."""
     beside = imgui.calc_text_size(label).x + imgui.get_style().item_inner_spacing.x
     return max(hello_imgui.em_size(3.5), min(usual, imgui.get_content_region_avail().x - beside))
 
 
 def tip(text: str, widget: int = 0) -> None:
-    """Explain the item drawn last, when the mouse rests on it: in lines that are easily read.
+    """Show a tooltip, in short lines, when the mouse rests on the item drawn last.
 
     `widget`: see `Anchor.note`.
     """
@@ -123,7 +123,7 @@ def tip(text: str, widget: int = 0) -> None:
 
 
 def tooltip(control: Control, label: str) -> None:
-    """Tell what the item drawn last, of this label, does, and what it costs."""
+    """Show a tooltip on the item drawn last: what it does, its unit and its costs."""
     help_text = control.help[:1].upper() + control.help[1:]
     unit = f" [{control.unit}]" if control.unit else ""
     costs = (
@@ -135,13 +135,13 @@ def tooltip(control: Control, label: str) -> None:
 
 
 def _width_next_to(label: str) -> float:
-    """The width of a widget that leaves room for its label and its tag."""
+    """Return the width of a widget that leaves room for its label and its tag, in pixels."""
     usual = min(hello_imgui.em_size(9.5), 0.36 * imgui.get_window_width())
     return max(hello_imgui.em_size(3.5), min(usual, _room_next_to(label)))
 
 
 def _room_next_to(label: str) -> float:
-    """The width that a label and a tag leave in a line."""
+    """Return the width that a label and a tag leave in a line, in pixels."""
     beside = imgui.calc_text_size(label).x + hello_imgui.em_size(1)
     return tags_start() - imgui.get_cursor_pos_x() - beside
 
@@ -164,7 +164,7 @@ def _draw(control: Control, label: str, value: Any) -> tuple[bool, Any]:
 
 
 def _choice_text(control: Control, label: str, value: Any) -> tuple[bool, Any]:
-    """A list that tells beside each word what it is."""
+    """Draw a list that explains each of its words."""
     chosen = value
     if not imgui.begin_combo(label, str(value), imgui.ComboFlags_.height_large.value):
         return False, value
@@ -189,7 +189,7 @@ def _color(control: Control, label: str, value: Any) -> tuple[bool, Any]:
 
 
 def _radiance(label: str, value: Any) -> tuple[bool, Any]:
-    """Three numbers of any size, and a patch of their hue; a click on it chooses another hue."""
+    """Draw three numbers of any size and a patch of their hue, which a click changes."""
     name, brightest = label.partition("##")[0], max(*value, 0.0) or 1.0
     patch, room = imgui.get_frame_height(), imgui.get_style().item_inner_spacing.x
     imgui.push_id(label)
@@ -209,7 +209,7 @@ def _radiance(label: str, value: Any) -> tuple[bool, Any]:
 
 
 def _hue(hue: list[float]) -> list[float] | None:
-    """A patch of a colour, and what is picked after a click on it: its largest part is 1."""
+    """Draw a patch of a colour; return the hue picked after a click on it, largest part 1."""
     if imgui.color_button("hue", [*hue, 1.0], _NO_TOOLTIP):
         imgui.open_popup("picker")
     picked = False
@@ -220,7 +220,7 @@ def _hue(hue: list[float]) -> list[float] | None:
 
 
 def _number(control: Control, label: str, value: Any) -> tuple[bool, Any]:
-    """A slider over the range worth dragging; Ctrl and a click take any valid number."""
+    """Draw a slider over the useful range; after Ctrl and a click, any number can be typed."""
     flags = _LOGARITHMIC if control.is_logarithmic else 0
     if control.slider is None:
         return _free_number(control, label, value)
@@ -249,7 +249,7 @@ def _free_number(control: Control, label: str, value: Any) -> tuple[bool, Any]:
 
 
 def _typed_integer(label: str, value: int) -> tuple[bool, int]:
-    """A text box: the integers of Dear ImGui end at 2^31."""
+    """Draw a text box for an integer: the integers of Dear ImGui end at 2^31."""
     flags = imgui.InputTextFlags_.chars_decimal | imgui.InputTextFlags_.enter_returns_true
     changed, text = imgui.input_text(label, str(value), int(flags))
     digits = text[:_MOST_DIGITS]
@@ -257,7 +257,7 @@ def _typed_integer(label: str, value: int) -> tuple[bool, int]:
 
 
 def _clamped(control: Control, value: Any) -> Any:
-    """The nearest valid value: one that was typed may be anything."""
+    """Return the nearest valid value: a typed one may be out of range."""
     if isinstance(value, tuple):
         return tuple(_clamped(control, part) for part in value)
     if isinstance(value, bool | str):
@@ -271,6 +271,6 @@ def _clamped(control: Control, value: Any) -> Any:
 def edited_fields(
     controls: tuple[Control, ...], values: Mapping[str, Any], name: str = ""
 ) -> dict[str, Any]:
-    """Draw the widgets of several fields; those that were edited, with their new values."""
+    """Draw the widgets of several fields; return the edited fields with their new values."""
     drawn = {c.name: edited(c, values[c.name], name) for c in controls}
     return {field: value for field, value in drawn.items() if value is not None}

@@ -1,9 +1,9 @@
-"""Where the number of a slider stands: beside its grip, not below it."""
+"""Place of the number in a slider: next to the grip, not under it."""
 
 import math
 from typing import NamedTuple
 
-_PADDING = 2.0  # pixels between the grip and the edge, as Dear ImGui has it
+_PADDING = 2.0  # pixels between the grip and the edge, as in Dear ImGui
 
 
 class Slider(NamedTuple):
@@ -15,22 +15,22 @@ class Slider(NamedTuple):
 
     @property
     def middle(self) -> float:
-        """Of the grip."""
+        """Middle of the grip, in pixels from the left end of the slider."""
         room = self.width - 2 * _PADDING - self.grip
         return _PADDING + self.grip / 2 + self.share * room
 
 
 def share_of(value: float, low: float, high: float, is_logarithmic: bool) -> float:
-    """Where in its range a value stands, from 0 to 1."""
+    """Return the place of a value in its range, from 0 to 1."""
     if is_logarithmic:
         value, low, high = (math.log(max(part, low)) for part in (value, low, high))
     return min(max((value - low) / (high - low), 0.0), 1.0)
 
 
 def text_next_to_grip(form: str, slider: Slider, text: float, space: float) -> str:
-    """The format of a number, which Dear ImGui centres: spaces push it off the grip.
+    """Return the format of a number, which Dear ImGui centres: spaces push it off the grip.
 
-    `text` and `space` are the widths of the number and of a space.
+    `text` and `space` are the widths of the number and of a space, in pixels.
     """
     if abs(slider.middle - slider.width / 2) > (slider.grip + text) / 2 + space:
         return form

@@ -1,30 +1,30 @@
-"""The widget that was used last stays where it is on the screen, whatever rows come and go."""
+"""Keep the last used widget in place on the screen when rows appear or disappear above it."""
 
 from imgui_bundle import ImVec2, imgui
 
 
 class Anchor:
-    """A widget of the panel, by its id, and where it was: in pixels from the top of all rows."""
+    """The last used widget of the panel, and its place: in pixels from the top of all rows."""
 
     def __init__(self) -> None:
-        """Nothing was used yet."""
+        """Begin without a used widget."""
         self._widget = 0
         self._before: float | None = None
         self._now: float | None = None
         self._height = 0.0  # of the window
-        self._lead = 0.0  # empty room above the rows: pixels that could not be scrolled up
-        self._start = 0.0  # of the rows, below what does not scroll
+        self._lead = 0.0  # empty pixels above the rows, which could not be scrolled
+        self._start = 0.0  # of the rows, below the bar, which does not scroll
         self._has_rows = False  # whether rows are drawn now: other parts have widgets, too
 
     def begin(self, start: float) -> None:
-        """The rows begin, so many pixels below the upper edge of the panel."""
+        """Begin the rows, `start` pixels below the upper edge of the panel."""
         self._start, self._has_rows = start, True
         imgui.set_cursor_pos_y(imgui.get_cursor_pos_y() + self._lead)
 
     def note(self, widget: int = 0) -> None:
-        """Look at the item drawn last; it is held once it is used.
+        """Observe the item drawn last; hold it in place once it is used.
 
-        A group of items has no id but for the one in it that is used: it takes that of `widget`.
+        A group of items has only the id of its item in use; `widget` replaces that id.
         """
         if not self._has_rows:
             return
@@ -35,20 +35,20 @@ class Anchor:
             self._now = _place()
 
     def go_here(self) -> None:
-        """Scroll so that what is drawn next comes to be the first row, and hold nothing."""
+        """Scroll so that the next item becomes the first visible row, and hold no widget."""
         imgui.set_scroll_y(max(imgui.get_cursor_pos_y() - self._start - self._lead, 0.0))
         self.forget()
 
     def forget(self) -> None:
-        """Hold nothing."""
+        """Hold no widget in place."""
         self._widget, self._before, self._now, self._lead = 0, None, None, 0.0
 
     def keep(self) -> None:
-        """At the end of the panel: scroll by as much as the widget moved.
+        """Scroll by as much as the held widget moved; call it at the end of the panel.
 
-        Where rows have gone the panel keeps its length until it is scrolled up, since a shorter one
-        could not be scrolled as far; and where there is too little above to be scrolled down, room
-        is left there until it is out of sight, or the mouse has left the panel.
+        If rows disappeared, the panel keeps its length until it is scrolled up: a shorter one could
+        not be scrolled as far. If there are too few rows above to scroll down, empty room is left
+        there until it is out of sight, or the mouse has left the panel.
         """
         scroll, height = imgui.get_scroll_y(), imgui.get_window_height()
         wanted = scroll + self._moved(scroll)
@@ -68,10 +68,10 @@ class Anchor:
         self._height = height
 
     def _moved(self, scroll: float) -> float:
-        """How far down rows moved the widget; not so far that it would be kept under the bar."""
+        """Return how far down rows moved the widget, so limited that the bar does not cover it."""
         if self._now is None or self._before is None:
             return 0.0
-        below = self._now - self._start - scroll  # the bar, as the widget is on the screen now
+        below = self._now - self._start - scroll  # distance to the bar, as the widget is drawn now
         moved = self._now - self._before
         return min(moved, below) if below >= 0 else moved
 
@@ -89,4 +89,4 @@ def _is_mouse_away() -> bool:
     return not imgui.is_window_hovered(int(flags)) and not imgui.is_any_item_active()
 
 
-ANCHOR = Anchor()  # of the panel: there is one in a window
+ANCHOR = Anchor()  # of the panel: a window has only one

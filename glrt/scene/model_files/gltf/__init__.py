@@ -10,7 +10,7 @@ Modules, each importing only what stands above it:
 - skins: vertices moved by joints
 - primitives: triangles of primitives
 - images: embedded and external images
-- textures: textures, as those of a scene
-- materials: materials, as those of a scene
-- cameras_lights: cameras and lights, as those of a scene
+- textures: textures, converted to those of a scene
+- materials: materials, converted to those of a scene
+- cameras_lights: cameras and lights, converted to those of a scene
 """

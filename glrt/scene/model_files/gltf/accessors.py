@@ -1,4 +1,4 @@
-"""Arrays of a glTF file: accessors, sparse ones too."""
+"""Read arrays of a glTF file: accessors, sparse ones too."""
 
 from typing import Any
 
@@ -16,7 +16,7 @@ _SIZES = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 
 
 def floats(document: Document, index: Any, sizes: tuple[int, ...], where: str) -> Floats:
-    """(n, size) numbers of an accessor, of integers those that it stands for where normalized."""
+    """Return the numbers of an accessor, (n, size); normalized integers become numbers up to 1."""
     rows, accessor = _rows(document, index, where)
     if rows.shape[1] not in sizes:
         raise ValueError(f"accessors[{index}] has {rows.shape[1]} numbers each, as {where}")
@@ -27,7 +27,7 @@ def floats(document: Document, index: Any, sizes: tuple[int, ...], where: str) -
 
 
 def indices(document: Document, index: Any, where: str) -> Ints:
-    """(n,) whole numbers of an accessor."""
+    """Return the whole numbers of an accessor, (n,)."""
     rows, _ = _rows(document, index, where)
     if rows.shape[1] != 1 or rows.dtype.kind != "u":
         raise ValueError(f"accessors[{index}], {where}, must be of whole numbers without a sign")
@@ -68,7 +68,7 @@ def _strided(
     count: int,
     here: str,
 ) -> NDArray[Any]:
-    """(count, size) from a view; rows may have something between them."""
+    """Return rows from a view, (count, size); there may be something between them."""
     content, stride = document.view(place[0], here)
     offset, width = whole(place[1], f"{here}.byteOffset"), dtype.itemsize * size
     step = stride or width
@@ -83,7 +83,7 @@ def _strided(
 def _replaced(
     document: Document, rows: NDArray[Any], sparse: dict[str, Any], here: str
 ) -> NDArray[Any]:
-    """The rows with some replaced."""
+    """Return the rows with some replaced, as a sparse accessor says."""
     count = whole(sparse.get("count"), f"{here}.count", least=1)
     if count > len(rows):
         raise ValueError(f"{here}.count must be at most {len(rows):,}, got {count:,}")

@@ -1,4 +1,4 @@
-"""What a primitive has of each vertex, from accessors or unpacked, in the shape of its morphs."""
+"""Vertex attributes of a primitive, from accessors or unpacked, with morph targets added."""
 
 from collections.abc import Sequence
 from functools import cached_property
@@ -10,7 +10,7 @@ from glrt.scene.model_files.gltf.draco import unpacked
 
 
 class Attributes:
-    """The rows of a primitive by name."""
+    """The vertex attributes of a primitive, by name."""
 
     def __init__(
         self,
@@ -19,7 +19,7 @@ class Attributes:
         here: str,
         weights: Sequence[float] = (),
     ) -> None:
-        """`weights`: of its morph targets, which are added by them."""
+        """Read a primitive; its morph targets are added by `weights`."""
         self._document, self._primitive, self._here = document, primitive, here
         self._named = document.table(primitive.get("attributes"), f"{here}.attributes")
         self._packed = unpacked(document, primitive, here)
@@ -32,14 +32,14 @@ class Attributes:
 
     @cached_property
     def points(self) -> Floats:
-        """(v, 3)."""
+        """Positions of the vertices, (v, 3); ValueError without any."""
         found = self.rows("POSITION", (3,))
         if found is None:
             raise ValueError(f"{self._here}.attributes has no POSITION")
         return found
 
     def rows(self, name: str, sizes: tuple[int, ...]) -> Floats | None:
-        """(v, one of sizes); None where the primitive has none."""
+        """Return an attribute, (v, one of sizes); None if the primitive lacks it."""
         here = f"{self._here}.attributes.{name}"
         if self._packed is not None and name in self._packed.rows:
             found = self._packed.rows[name].copy()
@@ -64,7 +64,7 @@ class Attributes:
         return found
 
     def corners(self) -> Ints | None:
-        """(n,) numbers of vertices; None where they follow each other."""
+        """Return the numbers of vertices, (n,); None where they follow each other."""
         if self._packed is not None:
             return self._packed.corners
         if "indices" not in self._primitive:
@@ -73,6 +73,6 @@ class Attributes:
 
 
 def weights_of(document: Document, node: dict[str, Any], mesh: dict[str, Any]) -> list[float]:
-    """Of the morph targets of a mesh where a node shows it, in the pose of the file."""
+    """Return the weights of a mesh's morph targets at a node, in the pose of the file."""
     given = document.list(node.get("weights", mesh.get("weights", [])), "weights of morph targets")
     return [number(weight, "a weight of a morph target", -1e6, 1e6) for weight in given]

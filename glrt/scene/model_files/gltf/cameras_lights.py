@@ -1,4 +1,4 @@
-"""Cameras and lights of a glTF file as those of a scene."""
+"""Convert cameras and lights of a glTF file to those of a scene."""
 
 import math
 from typing import Any
@@ -8,12 +8,12 @@ import numpy as np
 from glrt.scene.model_files.gltf.document import Document, number, numbers
 from glrt.scene.model_files.gltf.nodes import Placed, placed_nodes
 
-LUMENS = 683.0  # of a watt at the most visible wavelength: by this, candela and lux become W
-LAMP_SIZE = 0.01  # radius of the sphere of a point light, of the radius of the model
+LUMENS = 683.0  # lumens of a watt at the most visible wavelength: candela and lux become W
+LAMP_SIZE = 0.01  # radius of the sphere of a point light, over the radius of the model
 
 
 def camera_of(document: Document) -> tuple[dict[str, Any], float | None] | None:
-    """The table of the first camera with perspective, and its width over its height if stated."""
+    """Return the table of the first perspective camera, and its width over height if stated."""
     for placed in placed_nodes(document):
         if "camera" not in placed.node:
             continue
@@ -41,13 +41,13 @@ def camera_of(document: Document) -> tuple[dict[str, Any], float | None] | None:
 
 
 def left_out(camera: object, suns: int, document: Document) -> tuple[str, ...]:
-    """In words, what of cameras and lights no scene has."""
+    """Return in words which cameras and lights are left out."""
     found = ["cameras without perspective"] if not camera and document.items("cameras") else []
     return (*found, *(["directional lights but the first"] if suns > 1 else []))
 
 
 def lights_of(document: Document, size: float) -> dict[str, Any]:
-    """Materials and objects of the lights, and a sun, as tables of a scene; `size`: of the model.
+    """Return lights as tables of a scene: materials, objects, suns; `size`: radius of the model.
 
     A point light of I candela is a sphere of radius r with L = I / (683 pi r^2).
     """

@@ -1,4 +1,4 @@
-"""The parts of a glTF file: JSON and buffers, each looked at as it is asked for."""
+"""The parts of a glTF file: JSON and buffers, each checked when it is asked for."""
 
 import base64
 import binascii
@@ -32,10 +32,10 @@ _LONGEST_JSON = 256 << 20  # bytes
 
 
 class Document:
-    """A file; what is wrong in it raises ValueError, which says where."""
+    """A glTF file; mistakes in it raise ValueError, which says where."""
 
     def __init__(self, content: bytes, fetch: Fetch) -> None:
-        """Of the content of a .glb or .gltf file; other files come by `fetch`."""
+        """Parse the content of a .glb or .gltf file; `fetch` brings other files."""
         text, self._binary = _chunks(content)
         self._fetch, self._buffers = fetch, dict[int, bytes]()
         self.json = _parsed(text)
@@ -49,17 +49,17 @@ class Document:
 
     @cached_property
     def unknown_extensions(self) -> list[str]:
-        """Those that it uses and glrt leaves out, without those that it requires."""
+        """Names of extensions that the file uses and glrt leaves out, sorted."""
         used = self.json.get("extensionsUsed", [])
         names = [name for name in used if isinstance(name, str)] if isinstance(used, list) else []
         return sorted(set(names) - KNOWN)
 
     def items(self, name: str) -> list[Any]:
-        """The list of a name at the top, `nodes` or `meshes`; empty without it."""
+        """Return the list of a name at the top, `nodes` or `meshes`; empty without it."""
         return self.list(self.json.get(name, []), name)
 
     def item(self, name: str, index: Any, where: str) -> dict[str, Any]:
-        """An item of such a list, a table."""
+        """Return an item of a list at the top; ValueError if it is missing or no table."""
         items = self.items(name)
         if type(index) is not int or not 0 <= index < len(items):
             there = f"there are {len(items)}, numbered from 0"
@@ -68,27 +68,27 @@ class Document:
 
     @staticmethod
     def list(value: Any, where: str) -> list[Any]:
-        """A list, which must be one."""
+        """Return the value, which must be a list; else ValueError."""
         if not isinstance(value, list):
             raise ValueError(f"{where} must be a list, got {_shown(value)}")
         return value
 
     @staticmethod
     def table(value: Any, where: str) -> dict[str, Any]:
-        """A table, which must be one."""
+        """Return the value, which must be a table; else ValueError."""
         if not isinstance(value, dict):
             raise ValueError(f"{where} must be a table, got {_shown(value)}")
         return value
 
     def extension(self, table: Mapping[str, Any], name: str, where: str) -> dict[str, Any] | None:
-        """What a table says by an extension; None where it has none."""
+        """Return the table of an extension in a table; None if there is none."""
         extensions = self.table(table.get("extensions", {}), f"{where}.extensions")
         if name not in extensions:
             return None
         return self.table(extensions[name], f"{where}.extensions.{name}")
 
     def view(self, index: Any, where: str) -> tuple[memoryview, int]:
-        """The bytes of a view of a buffer, and the stride that it states or 0."""
+        """Return the bytes of a view of a buffer, and the stride that it states or 0."""
         view, here = self.item("bufferViews", index, where), f"bufferViews[{index}]"
         buffer = self._buffer(view.get("buffer"), here)
         start = whole(view.get("byteOffset", 0), f"{here}.byteOffset")
@@ -99,7 +99,7 @@ class Document:
         return memoryview(buffer)[start : start + length], stride
 
     def content(self, uri: Any, where: str) -> bytes:
-        """What a URI holds or names."""
+        """Return the content that a URI holds or names."""
         if not isinstance(uri, str):
             raise ValueError(f"{where} must be a text, got {_shown(uri)}")
         if uri.startswith("data:"):
@@ -123,7 +123,7 @@ class Document:
 
 
 def path_of(uri: str, where: str) -> str:
-    """The path that a URI stands for."""
+    """Return the path that a URI stands for; ValueError for a web address."""
     if "://" in uri:
         raise ValueError(f"{where} is a web address, and glrt loads nothing from there")
     try:
@@ -133,14 +133,14 @@ def path_of(uri: str, where: str) -> str:
 
 
 def whole(value: Any, where: str, least: int = 0) -> int:
-    """A whole number, which must be one."""
+    """Return the value, which must be a whole number of at least `least`; else ValueError."""
     if type(value) is not int or not least <= value < 1 << 40:
         raise ValueError(f"{where} must be a whole number of at least {least}, got {_shown(value)}")
     return value
 
 
 def number(value: Any, where: str, low: float = -1e15, high: float = 1e15) -> float:
-    """A number in a range."""
+    """Return the value, which must be a number from `low` to `high`; else ValueError."""
     if type(value) not in (int, float) or not low <= value <= high:
         raise ValueError(f"{where} must be a number from {low:g} to {high:g}, got {_shown(value)}")
     return float(value)
@@ -149,14 +149,14 @@ def number(value: Any, where: str, low: float = -1e15, high: float = 1e15) -> fl
 def numbers(
     value: Any, count: int, where: str, low: float = -1e15, high: float = 1e15
 ) -> tuple[float, ...]:
-    """So many numbers in a range."""
+    """Return `count` numbers, each from `low` to `high`; else ValueError."""
     if not isinstance(value, list) or len(value) != count:
         raise ValueError(f"{where} must be a list of {count} numbers, got {_shown(value)}")
     return tuple(number(each, f"{where}[{place}]", low, high) for place, each in enumerate(value))
 
 
 def _chunks(content: bytes) -> tuple[bytes, bytes | None]:
-    """The JSON and the binary part."""
+    """Return the JSON and the binary part, or None for the latter."""
     if content[:4] != b"glTF":
         return content, None
     if len(content) < 12:
@@ -208,7 +208,7 @@ def _data(uri: str, where: str) -> bytes:
     if not comma or not head.endswith(";base64"):
         raise ValueError(f"{where} is a data URI without ';base64,'")
     try:
-        plain = "".join(body.split()).rstrip("=")  # in lines, and without padding, as some write
+        plain = "".join(body.split()).rstrip("=")  # some files have lines, or lack the padding
         return base64.b64decode(plain + "=" * (-len(plain) % 4), validate=True)
     except binascii.Error:
         raise ValueError(f"{where} is damaged base64") from None

@@ -1,4 +1,4 @@
-"""Rows that are compressed by KHR_draco_mesh_compression."""
+"""Unpack primitives that KHR_draco_mesh_compression has compressed."""
 
 from typing import Any, NamedTuple
 
@@ -18,16 +18,16 @@ class NotInstalledError(Exception):
 
 
 class Unpacked(NamedTuple):
-    """A primitive as it was before it was compressed."""
+    """A primitive after decompression."""
 
     rows: dict[str, Floats]  # (v, size) by attribute
     corners: Ints  # (3 n,)
 
 
 def unpacked(document: Document, primitive: dict[str, Any], here: str) -> Unpacked | None:
-    """What a primitive holds compressed; None where it is not.
+    """Return the rows and corners of a compressed primitive; None if it is not compressed.
 
-    Raises ValueError for what is damaged, and `NotInstalledError` without DracoPy.
+    Raises ValueError for damaged content, and `NotInstalledError` without DracoPy.
     """
     own = document.extension(primitive, EXTENSION, here)
     if own is None:
@@ -55,7 +55,7 @@ def _decoded(content: bytes, here: str) -> Any:
         ) from None
     try:
         found = DracoPy.decode(content)
-    except Exception as error:  # of its own types, and of what it calls
+    except Exception as error:  # its own types, and those of what it calls
         told = one_line(str(error))[:100] or type(error).__name__
         raise ValueError(f"{here} is damaged: {told}") from None
     if not hasattr(found, "faces"):

@@ -8,12 +8,12 @@ from glrt.scene.model_files.gltf.document import Document, path_of
 class ImagePlace(NamedTuple):
     """Where an image lies: in a file of its own, or in the glTF file under its number."""
 
-    path: str | None  # of that file, from the glTF file
+    path: str | None  # path of the image's file, from the glTF file; None if it is inside
     number: int
 
 
 def image_place(document: Document, index: Any, where: str) -> ImagePlace:
-    """The place of an image by its number."""
+    """Return the place of an image by its number."""
     image = document.item("images", index, where)
     uri = image.get("uri")
     if isinstance(uri, str) and not uri.startswith("data:"):
@@ -22,7 +22,7 @@ def image_place(document: Document, index: Any, where: str) -> ImagePlace:
 
 
 def image_content(document: Document, index: int) -> bytes:
-    """The bytes of an image that the file itself holds."""
+    """Return the bytes of an image that the file itself holds."""
     image, here = document.item("images", index, "the name of the image"), f"images[{index}]"
     if "uri" in image:
         return document.content(image["uri"], f"{here}.uri")

@@ -1,4 +1,4 @@
-"""Materials of a glTF file as those of a scene."""
+"""Convert materials of a glTF file to those of a scene."""
 
 from dataclasses import dataclass, field
 from typing import Any
@@ -28,14 +28,14 @@ _GREY = {"type": "principled", "color": (0.8, 0.8, 0.8), "roughness": 0.5}
 
 @dataclass
 class Look:
-    """A material as a table of a scene, and what of it was left out."""
+    """A material as a table of a scene, and the parts of it that were left out."""
 
     table: dict[str, Any]
     unread: list[str] = field(default_factory=list)
     is_unlit: bool = False
 
     def number(self, value: Any, where: str, most: float = 1.0) -> float:
-        """A number, moved into 0 to `most`; what is moved by more than rounding was left out."""
+        """Return a number, moved into 0 to `most`; `unread` lists a change beyond rounding."""
         given = number(value, where)
         found = min(max(given, 0.0), most)
         if abs(given - found) > _ROUNDING:
@@ -43,12 +43,12 @@ class Look:
         return found
 
     def numbers(self, value: Any, count: int, where: str, most: float = 1.0) -> tuple[float, ...]:
-        """So many of them."""
+        """Return `count` numbers, each as by `number`."""
         return tuple(self.number(each, where, most) for each in numbers(value, count, where))
 
 
 def looks_of(document: Document, path: str) -> dict[str, Look]:
-    """The materials of a file by the names of `material_names`, and one for what has none."""
+    """Return the materials of a file by `material_names`, and one for triangles without any."""
     folder = path.rpartition("/")[0] + "/" if "/" in path else ""
     textures = TextureTables(document, path, folder)
     found = {
@@ -74,7 +74,7 @@ def _look(document: Document, textures: TextureTables, index: int) -> Look:
 
 
 def _let_shine(look: Look) -> None:
-    """Let it emit its colour and reflect nothing: it looks the same in every light."""
+    """Let a material emit its colour and reflect nothing: it looks the same in every light."""
     shown = {"emission": look.table["color"], "color": (0.0, 0.0, 0.0), "specular": 0.0}
     keys = ("type", "ior", "alpha", "alpha_cutoff")
     kept = {key: look.table[key] for key in keys if key in look.table}
@@ -132,7 +132,7 @@ def _emission(
 def _layers(
     document: Document, textures: TextureTables, given: dict[str, Any], here: str, look: Look
 ) -> None:
-    """What extensions of materials say."""
+    """Read the extensions of a material: ior, specular, transmission, volume and clearcoat."""
 
     def own(name: str) -> dict[str, Any]:
         found = document.extension(given, f"KHR_materials_{name}", here) or {}
@@ -143,7 +143,7 @@ def _layers(
         return look.number(table.get(key, default), f"{here}: {key}", most)
 
     ior = value(own("ior"), "ior", 1.5, 1e3)
-    look.table["ior"] = ior if ior >= 1 else 1e3  # 0: what reflects everything
+    look.table["ior"] = ior if ior >= 1 else 1e3  # 0: everything is reflected
     specular = own("specular")
     look.table["specular"] = value(specular, "specularFactor", 1)
     tint = numbers(specular.get("specularColorFactor", [1, 1, 1]), 3, f"{here}: specular", 0)
@@ -170,7 +170,7 @@ def _layers(
 
 
 def _fit_glass(look: Look) -> None:
-    """Leave out what glass of a scene cannot have beside it."""
+    """Leave out what glass of a scene cannot be combined with."""
     if look.table["clearcoat"]:
         look.table["clearcoat"] = 0.0
         look.unread.append("clearcoat over transmission")
@@ -182,9 +182,10 @@ def _fit_glass(look: Look) -> None:
 
 
 def dye_unlit(look: Look, colors: NDArray[np.float64]) -> None:
-    """Multiply what is unlit by the colors of its vertices, (v, 3), where they are all the same.
+    """Multiply an unlit material by its vertex colors, (v, 3), if they are all the same.
 
-    Emission cannot vary from vertex to vertex: what has other colors is lit, and matte.
+    Emission cannot vary from vertex to vertex: with different colors, the material is lit, and
+    matte.
     """
     emission = look.table.pop("emission")
     given = emission["factor"] if isinstance(emission, dict) else emission
@@ -198,7 +199,7 @@ def dye_unlit(look: Look, colors: NDArray[np.float64]) -> None:
 
 
 def without_image(look: Look, key: str) -> None:
-    """Leave the image of a key out: its factor remains, but what glows in places emits nothing."""
+    """Leave out the image of a key; its factor stays, except for emission and normals."""
     table = look.table.pop(key)
     look.unread.append(f"{key} {quoted(table['image'])}, which cannot be read")
     if key not in ("normal", "emission"):
@@ -206,7 +207,7 @@ def without_image(look: Look, key: str) -> None:
 
 
 def make_pane(look: Look) -> None:
-    """Let its glass be a pane, which is smooth and encloses nothing."""
+    """Let the glass of a material be a pane, which is smooth and encloses nothing."""
     for key in ("attenuation_color", "attenuation_distance"):
         look.table.pop(key, None)
     if look.table["roughness"] != 0.0:

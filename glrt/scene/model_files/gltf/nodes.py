@@ -1,4 +1,4 @@
-"""Where the meshes, cameras and lights of a glTF file stand."""
+"""Placements of the meshes, cameras and lights of a glTF file."""
 
 from collections.abc import Iterator
 from typing import Any, NamedTuple
@@ -12,7 +12,7 @@ Matrix = NDArray[np.float64]  # (4, 4)
 
 
 class Placed(NamedTuple):
-    """A node of the scene."""
+    """A node of the scene, with its transform."""
 
     node: dict[str, Any]
     number: int
@@ -20,9 +20,9 @@ class Placed(NamedTuple):
 
 
 def placed_nodes(document: Document) -> Iterator[Placed]:
-    """The nodes of the scene that the file shows, parents before children.
+    """Yield the nodes of the scene that the file shows, parents before children.
 
-    Without scenes, all nodes. ValueError for a node that stands below itself, or below two others.
+    Without scenes, it yields all nodes. ValueError for a node below itself, or below two others.
     """
     waiting = [(index, np.eye(4)) for index in reversed(_roots(document))]
     seen = set[int]()

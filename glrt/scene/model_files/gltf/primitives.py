@@ -1,4 +1,4 @@
-"""The triangles of the meshes of a glTF file, where its nodes stand."""
+"""The triangles of the meshes of a glTF file, where its nodes place them."""
 
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
@@ -29,7 +29,7 @@ class _Part(NamedTuple):
 
 
 def mesh_of(document: Document) -> TriangleMesh:
-    """All triangles that the file shows; their materials are named as by `material_names`."""
+    """Return all triangles that the file shows; `material_names` names their materials."""
     names, parts, count = material_names(document), list[_Part](), 0
     nodes = list(placed_nodes(document))
     poses = {placed.number: placed.matrix for placed in nodes}
@@ -61,7 +61,7 @@ def mesh_of(document: Document) -> TriangleMesh:
 
 
 def material_names(document: Document) -> list[str]:
-    """Of each material another one: its own, or `material 3`."""
+    """Return a different name for each material: its own, or one such as `material 3`."""
     found = list[str]()
     for index, material in enumerate(document.items("materials")):
         given = document.table(material, f"materials[{index}]").get("name")
@@ -79,7 +79,7 @@ def _one_line(text: str) -> str:
 
 
 def _joined(parts: list[Floats | None], counts: list[int], width: int, rest: float) -> Any:
-    """Rows of all parts, `rest` where a part has none; None where no part has any."""
+    """Return rows of all parts, `rest` where a part has none; None if no part has any."""
     if all(part is None for part in parts):
         return None
     filled = [
@@ -100,7 +100,7 @@ def _parts(
         table = document.table(primitive, here)
         attributes = document.table(table.get("attributes"), f"{here}.attributes")
         if table.get("mode", _TRIANGLES) in _WITHOUT_AREA or "POSITION" not in attributes:
-            continue  # points, lines, and what is left to an extension
+            continue  # points, lines, and primitives that need an extension
         weights = weights_of(document, placed.node, mesh)
         rows = Attributes(document, table, here, weights)
         posed = skin_matrices(document, placed, rows, poses, here)
@@ -111,7 +111,7 @@ def _parts(
 
 
 def _part(own: Attributes, mode: Any, here: str, matrices: Floats) -> _Part | None:
-    """A primitive whose vertices are moved by matrices, (1 or v, 4, 4); None without triangles."""
+    """Return a primitive with vertices moved by matrices, (1 or v, 4, 4); None if empty."""
     points = own.points
     faces = _faces(own, mode, len(points), here)
     if not len(faces):
@@ -129,7 +129,7 @@ def _part(own: Attributes, mode: Any, here: str, matrices: Floats) -> _Part | No
     moved = (linear @ points[:, :, None])[:, :, 0] + matrices[:, :3, 3]
     if np.linalg.det(linear[0]) < 0:
         faces = faces[:, ::-1]
-    if normals is None:  # facets: no triangles share vertices then
+    if normals is None:  # flat facets: triangles share no vertices then
         at = faces.ravel()
         corners = moved[faces]
         across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -145,7 +145,7 @@ def _part(own: Attributes, mode: Any, here: str, matrices: Floats) -> _Part | No
 
 
 def _for_normals(linear: Floats) -> Floats:
-    """(n, 3, 3): by which normals turn, the cofactors, which need no inverse; of any length."""
+    """Return matrices for normals, (n, 3, 3): scaled cofactors, which need no inverse."""
     a, b, c = (linear[:, :, axis] for axis in range(3))
     cofactors = np.stack([np.cross(b, c), np.cross(c, a), np.cross(a, b)], axis=2)
     sign = np.where(np.linalg.det(linear) < 0, -1.0, 1.0)
@@ -164,7 +164,7 @@ def _material(document: Document, primitive: dict[str, Any], names: list[str], h
 
 
 def _faces(own: Attributes, mode: Any, count: int, here: str) -> Ints:
-    """(n, 3) of a list, a strip or a fan of triangles."""
+    """Return the faces, (n, 3), of a list, a strip or a fan of triangles."""
     if mode not in (_TRIANGLES, _STRIP, _FAN):
         raise ValueError(f"{here}.mode must be a whole number from 0 to 6, got {mode!r}"[:200])
     order = own.corners()

@@ -1,4 +1,4 @@
-"""Skins of a glTF file: where joints lead the vertices of a mesh, in the pose of the file."""
+"""Skins of a glTF file: vertices of a mesh moved by joints, in the pose of the file."""
 
 from collections.abc import Mapping
 
@@ -17,9 +17,10 @@ def skin_matrices(
     poses: Mapping[int, Matrix],
     here: str,
 ) -> Floats | None:
-    """(v, 4, 4): of each vertex, in place of the transform of its node; None without a skin.
+    """Return a matrix for each vertex, (v, 4, 4), in place of its node's; None without a skin.
 
-    `poses` are the transforms of all nodes that the file shows. ValueError for what does not fit.
+    `poses` are the transforms of all nodes that the file shows. ValueError for data that do not
+    fit.
     """
     joined = own.rows("JOINTS_0", (4,)) if "skin" in placed.node else None
     if joined is None:

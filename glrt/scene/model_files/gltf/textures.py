@@ -1,4 +1,4 @@
-"""Textures of a glTF file as those of a scene."""
+"""Convert textures of a glTF file to those of a scene."""
 
 import math
 from typing import Any
@@ -14,17 +14,17 @@ class TextureTables:
     """The textures of a file as tables of a scene, `{ image, wrap, ... }`."""
 
     def __init__(self, document: Document, path: str, folder: str) -> None:
-        """`path` is that of the file in the scene, `folder` with '/' at its end that of it."""
+        """Take the path of the file in the scene, and its `folder` with '/' at the end."""
         self._document, self._path, self._folder = document, path, folder
 
     def table(self, given: Any, here: str) -> dict[str, Any] | None:
-        """Of a reference to a texture in a material; None where there is none."""
+        """Return the table for a material's reference to a texture; None if there is none."""
         if given is None:
             return None
         document, info = self._document, self._document.table(given, here)
         texture = document.item("textures", info.get("index"), f"{here}.index")
         if "source" not in texture:
-            return None  # in a format that an extension brings
+            return None  # its format needs an extension
         name = f"textures[{info['index']}]"
         place = image_place(document, texture["source"], f"{name}.source")
         file = f"{self._path}#{place.number}" if place.path is None else self._folder + place.path
