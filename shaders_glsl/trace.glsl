@@ -2,6 +2,7 @@
 // stands above it. scene_arrays.glsl is the one that is written for each scene, by
 // glrt/gpu/struct_arrays.py: it declares the arrays of the scene and how each is read.
 
+#include "sampling/dot.glsl"
 #include "structs/scene.glsl"
 #include "scene_arrays.glsl"
 #include "sampling/hash.glsl"

@@ -6,7 +6,7 @@ import shutil
 import stat
 from collections.abc import Callable
 from contextlib import suppress
-from errno import EFBIG, EINVAL, EISDIR
+from errno import EFBIG, EINVAL, EISDIR, ELOOP
 from pathlib import Path
 
 from glrt.core.errors import RenderError, UsageError
@@ -24,7 +24,7 @@ def write_whole(path: Path, write: Callable[[Path], None]) -> None:
     then stays unchanged, and the temporary file is removed.
     """
     try:
-        target = path.resolve()  # for a link, the file that it points to
+        target = _resolved(path)  # for a link, the file that it points to
         if target.is_dir():
             raise IsADirectoryError(EISDIR, os.strerror(EISDIR), str(path))
         temporary = _next_to(target)
@@ -108,7 +108,7 @@ def _obstacle(path: Path) -> str | None:
 
     Permission bits are not enough: they do not bind root or show a disk mounted read-only.
     """
-    target = path.resolve()
+    target = _resolved(path)
     if not target.parent.is_dir():
         return _no_folder(path, target)
     if target.exists() and not target.is_file():
@@ -119,6 +119,14 @@ def _obstacle(path: Path) -> str | None:
     _create(probe)
     probe.unlink()
     return None
+
+
+def _resolved(path: Path) -> Path:
+    """The file that a path leads to by its links. OSError for links that go round in circles."""
+    target = path.resolve()
+    if target.is_symlink():  # since Python 3.13 `resolve` returns such a link as it is
+        raise OSError(ELOOP, os.strerror(ELOOP), str(path))
+    return target
 
 
 def _no_folder(path: Path, target: Path) -> str:

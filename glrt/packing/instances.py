@@ -24,9 +24,7 @@ Array = np.ndarray[Any, Any]
 
 INSTANCE = CONSTANTS["INSTANCE"]
 ROUNDED = 1 + 2.0**-20  # factor by which boxes are enlarged, since corners are float32
-MOST_HEIGHT = (
-    10  # levels of a mesh's own BVH; the BVH of the scene may have the rest of all levels
-)
+MOST_HEIGHT = 10  # levels of a mesh's own BVH; the BVH of the scene has the rest
 MOST_NUMBERS = 1 << 31  # limit for the numbers of shapes and triangles together
 
 

@@ -62,9 +62,9 @@ def objections(shader: Source) -> Iterator[str]:
 
 
 def in_es(constants: dict[str, bool | int], texts: dict[str, str] | None = None) -> Source:
-    """The compute kernel as OpenGL ES would have it."""
+    """The compute kernel as OpenGL ES would have it: there no function hides a built-in one."""
     main = f"{PRECISIONS}\n{read('trace.comp')}"
-    given = {"trace.comp": main, **written_for(), **(texts or {})}
+    given = {"trace.comp": main, "sampling/dot.glsl": "", **written_for(), **(texts or {})}
     return Source("trace.comp", constants, ES, given)
 
 

@@ -93,3 +93,17 @@ def test_a_local_vector_comes_back_from_the_world(call_glsl: CallGlsl) -> None:
     assert np.abs(back - v).max() < 8 * ULP
     up = np.tile(np.array([[0.0, 0.0, 1.0]]), (len(n), 1))
     assert np.array_equal(call_glsl("frame_around(n) * up", "vec3", n=n, up=up), n)
+
+
+def test_products_are_summed_in_one_order(call_glsl: CallGlsl) -> None:
+    """By every driver: Mesa 22 and Mesa 25 differ in their own `dot` and `length`."""
+    rng = np.random.default_rng(11)
+    a, b = rng.normal(size=(2, 20_000, 3)).astype(np.float32)
+    products = a * b
+    expected = products[:, 0] + (products[:, 1] + products[:, 2])
+    other = (products[:, 0] + products[:, 1]) + products[:, 2]
+    assert (expected != other).mean() > 0.1
+    assert (call_glsl("dot(a, b)", a=a, b=b) == expected).all()
+    squares = a * a
+    roots = np.sqrt(squares[:, 0] + (squares[:, 1] + squares[:, 2]))
+    assert (call_glsl("length(a)", a=a) == roots).all()

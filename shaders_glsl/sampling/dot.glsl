@@ -1,0 +1,22 @@
+// Products that every driver sums in one order. GLSL leaves the order of its own `dot` open: Mesa 22 sums from the end,
+// Mesa 25 from the start. A function of the same name and parameters hides it, and all others of that name.
+
+float dot(vec2 a, vec2 b) {
+    precise float sum = a.x * b.x + a.y * b.y;
+    return sum;
+}
+
+float dot(vec3 a, vec3 b) {
+    precise float sum = a.x * b.x + (a.y * b.y + a.z * b.z);
+    return sum;
+}
+
+float length(vec2 v) {
+    precise float root = sqrt(dot(v, v));
+    return root;
+}
+
+float length(vec3 v) {
+    precise float root = sqrt(dot(v, v));
+    return root;
+}
