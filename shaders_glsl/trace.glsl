@@ -27,6 +27,7 @@
 #include "bsdfs/material.glsl"
 #include "lights/emission.glsl"
 #include "lights/quad_solid_angle.glsl"
+#include "lights/kinds.glsl"
 #include "lights/triangle.glsl"
 #include "lights/sky.glsl"
 #include "lights/choice.glsl"

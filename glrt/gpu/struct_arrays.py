@@ -43,7 +43,8 @@ def scene_arrays(
 
     Each struct has `sphere_at(index)` and, if the struct Frame counts it, `sphere_count()`. Structs
     that are `numbered` share one numbering, in this order: `first_sphere()` is the number of the
-    first, and `up_to_sphere(number)` is true for this kind and earlier ones. Structs that are
+    first, `is_sphere(number)` is true for this kind alone, and `up_to_sphere(number)` for this kind
+    and earlier ones, if the number is that of a shape and not of a triangle. Structs that are
     `constant`, or have no rows, are written into the text. Uniform blocks have at most
     `uniform_bytes` bytes.
     """
@@ -133,6 +134,9 @@ def _numbering(arrays: Arrays, numbered: Sequence[str]) -> list[str]:
     for struct, after in pairwise([*numbered, ""]):
         limit = f"number < first_{after.lower()}()" if after and struct not in last else "true"
         lines.append(f"bool up_to_{struct.lower()}(int number) {{ return {limit}; }}")
+    for name in map(str.lower, numbered):
+        limits = f"number >= first_{name}() && number < first_{name}() + {name}_count()"
+        lines.append(f"bool is_{name}(int number) {{ return {limits}; }}")
     return lines
 
 

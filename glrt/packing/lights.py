@@ -14,7 +14,7 @@ import numpy as np
 from glrt.accel.light_clusters import alias_table, grouped, light_probabilities
 from glrt.packing.emission_cones import Aims, aims_of, around_all
 from glrt.packing.kernel_structs import CONSTANTS
-from glrt.packing.lamp_bounds import LAMPS, Bodies, bodies_of, joined, triangle_bodies
+from glrt.packing.lamp_bounds import Bodies, bodies_of, joined, triangle_bodies
 from glrt.packing.scene_tree import SceneTree
 from glrt.plan.facts import MOST_NEAR, SceneFacts
 from glrt.plan.particles import is_sampled
@@ -48,7 +48,7 @@ def lamps_of(facts: SceneFacts, shapes: Sequence[Shape], tree: SceneTree | None)
     found = [
         number
         for number, shape in enumerate(shapes)
-        if type(shape) in LAMPS and is_sampled(scene.materials[shape.material])
+        if shape.lamp_body and is_sampled(scene.materials[shape.material])
     ]
     lamps: list[Shape] = [shapes[number] for number in found]
     bodies = bodies_of(lamps)

@@ -17,7 +17,6 @@ from glrt.scene.materials.kinds import Material
 from glrt.scene.materials.principled import Principled
 from glrt.scene.materials.textures import NormalTexture, Texture
 from glrt.scene.shapes.kinds import Shape
-from glrt.scene.shapes.texture_axes import texture_axes
 
 Array = np.ndarray[Any, Any]
 
@@ -90,7 +89,7 @@ def pack_coordinates(facts: SceneFacts, shapes: Sequence[Shape], eye: Array) -> 
     without textures of normals.
     """
     is_mapped, is_bumpy = bool(facts.mapped), "normal" in facts.mapped
-    flat = [axes for shape in shapes if (axes := texture_axes(shape)) is not None]
+    flat = [axes for shape in shapes if (axes := shape.texture_axes) is not None]
     axes_rows = np.zeros(len(flat) if is_mapped else 0, STRUCTS["Axes"])
     for row, axes in zip(axes_rows, flat, strict=False):
         row["origin"], row["u"], row["v"] = axes.origin - eye, axes.u, axes.v

@@ -15,8 +15,7 @@ from glrt.core.errors import UsageError
 from glrt.plan.facts import SceneFacts
 from glrt.plan.methods import METHODS, reuses_points
 from glrt.plan.plan import Layering
-from glrt.scene.glasses import holds
-from glrt.scene.shapes.kinds import Shape
+from glrt.scene.shapes.kinds import SAMPLED, Shape
 from glrt.scene.shapes.plane import Plane
 from glrt.settings import Settings
 
@@ -206,7 +205,7 @@ def _refusals(facts: SceneFacts, settings: Settings) -> Iterator[str]:
     if not METHODS[settings.method].weighs_particles:
         yield f"particles are weighed by the method mis alone, not by {settings.method}"
     if not (particles.lamps or particles.sun_sends or particles.sky_sends):
-        yield "no sphere, quad, disk, mesh, sun or sky shines: particles leave these alone"
+        yield f"no {', '.join(SAMPLED)}, sun or sky shines: particles leave these alone"
     if facts.has_many_lights:
         yield f"of {facts.sampled_lamps} lamps, too many to choose among for each particle"
     if facts.holed:
@@ -228,7 +227,7 @@ def _shines_in_tinted_glass(facts: SceneFacts) -> bool:
     around = _dense(facts)
     lamps = facts.particles.lamps if around else []
     centers = [np.array(lamp.middle, np.float64) for lamp in lamps]
-    return any(holds(glass, center) for glass in around for center in centers)
+    return any(glass.holds(center) for glass in around for center in centers)
 
 
 def _sun_shines_in_it(facts: SceneFacts) -> bool:

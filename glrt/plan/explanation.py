@@ -9,7 +9,6 @@ from glrt.plan.facts import (
     MESH,
     MOST_NEAR,
     REST_FROM,
-    SAMPLED,
     SPHERES_FROM,
     TREE_FROM,
     SceneFacts,
@@ -19,7 +18,7 @@ from glrt.plan.methods import CLASSIC, METHODS
 from glrt.plan.plan import Plan
 from glrt.scene.materials.kinds import TYPES, Material
 from glrt.scene.scene import Scene
-from glrt.scene.shapes.kinds import KINDS
+from glrt.scene.shapes.kinds import KINDS, SAMPLED
 from glrt.scene.summary import few
 from glrt.settings import Settings
 

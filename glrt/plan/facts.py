@@ -14,7 +14,7 @@ from glrt.scene.materials.kinds import Material, glass_of
 from glrt.scene.materials.metal import Metal
 from glrt.scene.materials.principled import Principled
 from glrt.scene.scene import SKY_GROUP, SUN_GROUP, Finish, Scene
-from glrt.scene.shapes.kinds import KINDS
+from glrt.scene.shapes.kinds import KINDS, SAMPLED
 from glrt.scene.shapes.mesh import Mesh
 from glrt.scene.values import Radiance
 
@@ -22,7 +22,6 @@ TREE_FROM = 33  # bounded shapes: more than are baked; a BVH pays from here (doc
 SPHERES_FROM = 33  # spheres: from here on a BVH of their own is faster
 REST_FROM = 16  # other shapes, where spheres or meshes have a BVH: from here on they get one too
 MOST_NEAR = 32  # lamps weighed at each point; more are grouped into this many clusters
-SAMPLED = ("sphere", "quad", "disk", "mesh")  # kinds of lamps that are sampled; paths hit others
 MOST_LAMPS = 65_535  # sampled lamps: a triangle stores the number of its light in 16 bits
 ENDLESS = ("plane",)  # kinds of shapes without bounds
 MESH = "mesh"  # the kind whose triangles rays always find through a BVH

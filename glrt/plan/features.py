@@ -4,12 +4,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from typing import Any
 
-from glrt.plan.facts import SAMPLED, SceneFacts
+from glrt.plan.facts import SceneFacts
 from glrt.plan.methods import METHODS, SPATIAL, TEMPORAL, reuses_points
 from glrt.scene.materials.kinds import TYPES
 from glrt.scene.materials.metal import Metal
 from glrt.scene.scene import Scene
-from glrt.scene.shapes.kinds import KINDS
+from glrt.scene.shapes.kinds import KINDS, SAMPLED
 from glrt.settings import Settings
 
 NEAR = 8  # pixels around, whose kept points a pixel reuses
@@ -100,7 +100,7 @@ class Needs:
         lamps = {f"HAS_{kind.upper()}_LIGHT": kind in self.lamps for kind in SAMPLED}
         plain = [field.name for field in fields(self) if field.name not in _SETS]
         values = {name.upper(): getattr(self, name) for name in plain}
-        counts = {"COUNT_RAYS": False, "COUNT_BOUNCES": False}
+        counts = {"LAMP_KINDS": len(self.lamps), "COUNT_RAYS": False, "COUNT_BOUNCES": False}
         every = {**kinds, **types, **lamps, **values, **NO_LAYERS, **NO_TREE, **counts}
         return {**every, **PLAIN_PROBES}
 

@@ -6,10 +6,8 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from glrt.scene.scene import Scene
-from glrt.scene.shapes.base import Array, Object, Sided
-from glrt.scene.shapes.disk import Disk
+from glrt.scene.shapes.base import Array, Object
 from glrt.scene.shapes.mesh import Mesh
-from glrt.scene.shapes.quad import Quad
 
 Things = Mapping[type[Object], Sequence[Object]]
 Rows = Mapping[type[Object], Array]  # one for each thing of a kind, in order
@@ -36,27 +34,16 @@ def front_shares(scene: Scene, lamps: Sequence[Object]) -> list[float]:
 
 
 def _front_share(lamp: Object, things: Things, rows: Rows) -> float:
-    if not isinstance(lamp, Quad | Disk):
+    body = lamp.lamp_body
+    if body is None or not body.normal.any():
         return 0.5
     if lamp.is_one_sided:
         return 1.0
-    middle, normal, size = _facing(lamp)
-    front, back = (_room(lamp, things, rows, middle, away) for away in (normal, -normal))
+    normal, size = body.normal / np.linalg.norm(body.normal), math.sqrt(body.area / 2)
+    front, back = (_room(lamp, things, rows, body.center, away) for away in (normal, -normal))
     if min(front, back) > CLOSE * size or max(front, back) < MUCH * min(front, back):
         return 0.5
     return MOST if front < back else 1 - MOST
-
-
-def _facing(lamp: Sided) -> tuple[Array, Array, float]:
-    """Return the middle, (3,), unit normal, (3,), and size (root of the area) of a flat lamp."""
-    middle = np.array(lamp.middle, np.float64)
-    if isinstance(lamp, Quad):
-        across = np.cross(lamp.edge_u, lamp.edge_v)
-        area = float(np.linalg.norm(across))
-        return middle, across / area, math.sqrt(area)
-    assert isinstance(lamp, Disk)
-    normal = np.array(lamp.normal, np.float64)
-    return middle, normal / np.linalg.norm(normal), lamp.radius * math.sqrt(math.pi)
 
 
 def _room(lamp: Object, things: Things, rows: Rows, middle: Array, away: Array) -> float:

@@ -13,12 +13,7 @@ from glrt.scene.materials.metal import Metal
 from glrt.scene.materials.principled import Principled
 from glrt.scene.scene import Scene
 from glrt.scene.shapes.base import Array, Object
-from glrt.scene.shapes.box import Box
-from glrt.scene.shapes.cylinder import Cylinder
-from glrt.scene.shapes.disk import Disk
-from glrt.scene.shapes.mesh import Mesh
-from glrt.scene.shapes.plane import Plane
-from glrt.scene.shapes.quad import Quad
+from glrt.scene.shapes.kinds import SAMPLED
 from glrt.scene.shapes.sphere import Sphere
 from glrt.settings import Settings
 
@@ -75,13 +70,12 @@ class ParticleFacts:
     @cached_property
     def lamps(self) -> list[Object]:
         """Lamps that send particles, in addition to the sun or the sky."""
-        kinds = Sphere | Quad | Disk | Mesh
-        known = (thing for thing in self.scene.visible if isinstance(thing, kinds))
+        known = (thing for thing in self.scene.visible if thing.shape in SAMPLED)
         return [thing for thing in known if is_sampled(self.scene.materials[thing.material])]
 
     @cached_property
     def _is_finite(self) -> bool:
-        return any(not isinstance(thing, Plane) for thing in self.scene.visible)
+        return any(thing.is_bounded for thing in self.scene.visible)
 
     @property
     def sun_sends(self) -> bool:
@@ -101,8 +95,12 @@ class ParticleFacts:
         The largest come first. A ball within another is left out, as are balls beyond MOST_TARGETS.
         """
         materials = self.scene.materials
-        solids = (it for it in self.scene.visible if isinstance(it, Box | Cylinder | Mesh))
-        casters = (thing for thing in solids if makes_caustics(materials[thing.material]))
+        others = (
+            it
+            for it in self.scene.visible
+            if it.has_inside and it.is_bounded and not isinstance(it, Sphere)
+        )
+        casters = (thing for thing in others if makes_caustics(materials[thing.material]))
         found: list[Ball] = []
         for ball in sorted(map(_ball, casters), key=lambda ball: -ball.radius):
             if len(found) < MOST_TARGETS and not any(other.holds(ball) for other in found):
@@ -141,7 +139,7 @@ class ParticleFacts:
 
 def ball_around(scene: Scene) -> Ball | None:
     """Return a ball around all shapes except planes, or None without such shapes."""
-    balls = [_ball(thing) for thing in scene.visible if not isinstance(thing, Plane)]
+    balls = [_ball(thing) for thing in scene.visible if thing.is_bounded]
     if not balls:
         return None
     centers = np.array([ball.center for ball in balls])
@@ -171,20 +169,9 @@ def _is_empty(scene: Scene, sphere: Sphere) -> bool:
             others.setdefault(type(thing), []).append(thing.row)
     center = np.array(sphere.center, np.float64)
     nearest = (
-        float(_distances(kind, np.array(rows, np.float64), center).min())
-        for kind, rows in others.items()
+        float(kind.gaps(np.array(rows, np.float64), center).min()) for kind, rows in others.items()
     )
     return all(distance >= sphere.radius * (1 - TOUCHING) for distance in nearest)
-
-
-def _distances(kind: type[Object], rows: Array, point: Array) -> Array:
-    """Return the distances from a point to shapes of a kind, or to the boxes around them, (n,)."""
-    if kind is Plane:
-        away = ((point - rows[:, :3]) * rows[:, 3:]).sum(axis=1)
-        return np.asarray(np.abs(away) / np.linalg.norm(rows[:, 3:], axis=1))
-    if kind is Sphere:
-        return np.asarray(np.linalg.norm(point - rows[:, :3], axis=1) - rows[:, 3])
-    return np.asarray(np.linalg.norm(point - np.clip(point, *kind.bounds(rows)), axis=1))
 
 
 def makes_caustics(material: Material) -> bool:

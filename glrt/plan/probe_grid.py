@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from glrt.scene.scene import Scene
 from glrt.scene.shapes.mesh import Mesh
-from glrt.scene.shapes.plane import Plane
 from glrt.settings import Settings
 
 Array = NDArray[np.float64]
@@ -60,8 +59,8 @@ def grid_of(scene: Scene, settings: Settings) -> Grid:
 
 def extent_of(scene: Scene) -> tuple[Array, Array]:
     """Return the low and high corner of a box around what is to be lit, (3,) each."""
-    boxes = [np.array(_bounds(thing)) for thing in scene.visible if not isinstance(thing, Plane)]
-    has_planes = any(isinstance(thing, Plane) for thing in scene.visible)
+    boxes = [np.array(_bounds(thing)) for thing in scene.visible if thing.is_bounded]
+    has_planes = any(not thing.is_bounded for thing in scene.visible)
     corners = [corner for box in boxes for corner in box]
     if has_planes and len(points := _reached(scene)):
         low, high = np.percentile(points, COMMON, axis=0)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glrt.scene.shapes.base import Object
-from glrt.scene.shapes.flat_faces import share_a_face
+from glrt.scene.shapes.flat_faces import share_a_plane
 from glrt.scene.shapes.kinds import Shape
 from glrt.scene.shapes.plane import Plane
 from glrt.scene.shapes.sphere import Sphere
@@ -72,9 +72,7 @@ def _near_pairs(solids: list[Shape]) -> Iterator[Pair]:
 
 
 def _may_meet(a: Shape, b: Shape) -> bool:
-    if isinstance(a, Plane) or isinstance(b, Plane):
-        return True
-    return math.dist(a.middle, b.middle) < a.reach + b.reach
+    return math.dist(a.middle, b.middle) < a.reach + b.reach  # infinite for a plane
 
 
 def _between(solids: list[Shape], first: int, second: int) -> Iterator[Found]:
@@ -84,7 +82,7 @@ def _between(solids: list[Shape], first: int, second: int) -> Iterator[Found]:
             yield Found("cross", (first, second))
         return
     depths = _depths(a, b), _depths(b, a)
-    if share_a_face(a, b, SLACK):
+    if share_a_plane(a.flat_faces, b.flat_faces, SLACK):
         yield Found("share a face", (first, second))
     elif any(low < 0 < high for low, high in depths):
         yield Found("cross", (first, second))

@@ -9,9 +9,6 @@ from glrt.scene.materials.dielectric import Dielectric
 from glrt.scene.materials.kinds import glass_of
 from glrt.scene.nesting import BITS
 from glrt.scene.scene import Finish, Scene
-from glrt.scene.shapes.kinds import Shape
-from glrt.scene.shapes.mesh import Mesh
-from glrt.scene.shapes.plane import Plane
 from glrt.scene.values import BLACK, Color
 
 Array = np.ndarray[Any, Any]
@@ -58,36 +55,10 @@ def around_camera(scene: Scene, glasses: dict[str, Dielectric]) -> Around:
     if not glasses:
         return AIR
     point = np.array(scene.camera.position, np.float64)
-    inside = [it for it in scene.visible if it.material in glasses and holds(it, point)]
+    inside = [it for it in scene.visible if it.material in glasses and it.holds(point)]
     media = media_of(glasses)
     counts = [sum(it.material == name for it in inside) for name in media]
     there = [name for name, count in zip(media, counts, strict=True) if count]
     there += [it.material for it in sorted(inside, key=lambda it: it.reach)]
     absorption = glasses[there[0]].absorption if there else BLACK
     return Around(absorption, sum(count << BITS * k for k, count in enumerate(counts)))
-
-
-def holds(shape: Shape, point: Array) -> bool:
-    """Return whether a point, (3,), lies inside a shape that encloses a volume."""
-    if isinstance(shape, Plane):
-        return bool((point - shape.point) @ np.asarray(shape.normal) < 0)
-    if isinstance(shape, Mesh):
-        return _turns(shape, point) > 0.5
-    rows = np.array([shape.row], np.float64)  # convex: a line from inside leaves it both ways
-    line = np.array([0.6, 0.64, 0.48])
-    with np.errstate(divide="ignore", invalid="ignore"):
-        ways = [type(shape).distances(rows, point, way)[0] for way in (line, -line)]
-    return bool(np.isfinite(ways).all())
-
-
-def _turns(mesh: Mesh, point: Array) -> float:
-    """Return how often a mesh winds around a point (van Oosterom and Strackee 1983)."""
-    if np.linalg.norm(point - mesh.middle) > mesh.reach:
-        return 0.0
-    corners = mesh.world_vertices - point
-    a, b, c = (corners[mesh.triangles.faces[:, k]] for k in range(3))
-    la, lb, lc = (np.linalg.norm(corner, axis=1) for corner in (a, b, c))
-    volume = (a * np.cross(b, c)).sum(axis=1)
-    rest = la * lb * lc + (a * b).sum(axis=1) * lc
-    rest += (b * c).sum(axis=1) * la + (c * a).sum(axis=1) * lb
-    return float(abs(np.arctan2(volume, rest).sum()) / (2 * np.pi))

@@ -232,7 +232,7 @@ def _object_problems(scene: Scene) -> Iterator[tuple[Place, str]]:
             missing.add(item.material)  # reported once, where it is used first
             advice = unknown("material", item.material, sorted(scene.materials))
             yield ("objects", index, "material"), advice
-        if item.shape in _NO_COORDINATES and isinstance(material, Opaque) and material.textures:
+        if not item.has_coordinates and isinstance(material, Opaque) and material.textures:
             yield ("objects", index, "material"), _TEXTURE_ADVICE.format(item.shape)
         glass = glass_of(material)
         if glass and not (item.encloses or glass.thin):
@@ -278,7 +278,6 @@ _GLASS_ADVICE = (
     "{} encloses nothing, so it cannot be dielectric; use a sphere, a plane, a box, a "
     "cylinder with caps or a closed mesh, or a material with thin = true"
 )
-_NO_COORDINATES = ("box", "cylinder")
 _TEXTURE_ADVICE = (
     "has a texture, and a {} has no texture coordinates; use a mesh of its form, or a material "
     "without textures"

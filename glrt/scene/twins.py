@@ -12,10 +12,8 @@ import numpy as np
 from glrt.core.memo import kept_for_the_same
 from glrt.scene.materials.kinds import Material, glass_of
 from glrt.scene.materials.principled import Principled
-from glrt.scene.shapes.disk import Disk
 from glrt.scene.shapes.kinds import KINDS, Shape
 from glrt.scene.shapes.mesh import Mesh
-from glrt.scene.shapes.quad import Quad
 
 
 class Twin(NamedTuple):
@@ -112,12 +110,8 @@ def _are_alike(meshes: Sequence[Any]) -> bool:
 
 def _side(thing: Any, first: Any) -> int:
     """Return 1 if an object's normal is that of the first one in its place, else -1."""
-    if isinstance(thing, Disk):
-        return 1 if np.dot(thing.normal, first.normal) > 0 else -1
-    if isinstance(thing, Quad):
-        normals = (np.cross(quad.edge_u, quad.edge_v) for quad in (thing, first))
-        return 1 if np.dot(*normals) > 0 else -1
-    return 1
+    bodies = thing.lamp_body, first.lamp_body
+    return -1 if all(bodies) and np.dot(bodies[0].normal, bodies[1].normal) < 0 else 1
 
 
 def _emits(thing: Shape, materials: Mapping[str, Material]) -> bool:

@@ -74,27 +74,29 @@ struct PointLamp {
 };
 
 PointLamp point_lamp(int shape) {
-    if (HAS_SPHERE_LIGHT && (!(HAS_QUAD_LIGHT || HAS_DISK_LIGHT || HAS_MESH_LIGHT) || up_to_sphere(shape))) {
+    if (is_sphere_lamp(shape)) {
         precise Sphere sphere = sphere_at(shape);
         precise float disk = PI * sphere.radius * sphere.radius;
         return PointLamp(sphere.center, disk, vec3(0.0), sphere.material);
     }
-    bool has_others = HAS_SPHERE_LIGHT || HAS_QUAD_LIGHT || HAS_DISK_LIGHT;
-    if (HAS_MESH_LIGHT && (!has_others || is_triangle(shape))) {
+    if (is_triangle_lamp(shape)) {
         precise LampTriangle triangle = lamp_triangle(shape);
         precise vec3 middle = triangle.a + (triangle.edge_b + triangle.edge_c) / 3.0;
         return PointLamp(middle, 0.0, triangle.across, mesh_at(triangle.mesh).material);
     }
-    if (HAS_DISK_LIGHT && (!HAS_QUAD_LIGHT || !up_to_quad(shape))) {
-        precise Disk round = disk_at(shape - first_disk());
+    if (is_disk_lamp(shape)) {
+        precise Disk round = disk_lamp(shape);
         precise vec3 across = PI * round.radius * round.radius * round.normal;
         return PointLamp(round.center, 0.0, across, round.material);
     }
-    precise Quad quad = quad_at(shape - first_quad());
-    precise vec3 center = quad.corner + 0.5 * (quad.edge_u + quad.edge_v);
-    precise vec3 facing = cross(quad.edge_u, quad.edge_v);  // of either sign
-    if (HAS_ONE_SIDED && dot(facing, quad.normal) < 0.0) facing = -facing;
-    return PointLamp(center, 0.0, facing, quad.material);
+    if (is_quad_lamp(shape)) {
+        precise Quad quad = quad_lamp(shape);
+        precise vec3 center = quad.corner + 0.5 * (quad.edge_u + quad.edge_v);
+        precise vec3 facing = cross(quad.edge_u, quad.edge_v);  // of either sign
+        if (HAS_ONE_SIDED && dot(facing, quad.normal) < 0.0) facing = -facing;
+        return PointLamp(center, 0.0, facing, quad.material);
+    }
+    return PointLamp(vec3(0.0), 0.0, vec3(0.0), 0);
 }
 
 // Light of a lamp in its centre, scattered towards wo. The direction of `from` is ignored.

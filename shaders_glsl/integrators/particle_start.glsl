@@ -24,27 +24,30 @@ Leaving leave_flat(vec3 position, vec3 normal, int material, bool back) {
 }
 
 Leaving place_on(Light light, vec2 u, bool back) {
-    if (is_of_sphere(light)) {
+    if (is_sphere_lamp(light.shape)) {
         precise Sphere sphere = sphere_at(light.shape);
         precise vec3 normal = sample_cone(2.0, u);
         precise vec3 position = sphere.center + sphere.radius * normal;
         return Leaving(position, normal, sphere.material, true);
     }
-    if (is_of_triangle(light)) {
+    if (is_triangle_lamp(light.shape)) {
         precise LampTriangle triangle = lamp_triangle(light.shape);
         precise vec2 shares = sample_triangle(u);
         precise vec3 place = triangle.a + shares.x * triangle.edge_b + shares.y * triangle.edge_c;
         return leave_flat(place, normalized(triangle.across), mesh_at(triangle.mesh).material, back);
     }
-    if (is_of_disk(light)) {
-        precise Disk disk = disk_of(light);
+    if (is_disk_lamp(light.shape)) {
+        precise Disk disk = disk_lamp(light.shape);
         precise vec2 across = disk.radius * sample_disk(u);
         precise vec3 place = disk.center + frame_around(disk.normal) * vec3(across, 0.0);
         return leave_flat(place, disk.normal, disk.material, back);
     }
-    precise Quad quad = quad_of(light);
-    precise vec3 position = quad.corner + u.x * quad.edge_u + u.y * quad.edge_v;
-    return leave_flat(position, quad.normal, quad.material, back);
+    if (is_quad_lamp(light.shape)) {
+        precise Quad quad = quad_lamp(light.shape);
+        precise vec3 position = quad.corner + u.x * quad.edge_u + u.y * quad.edge_v;
+        return leave_flat(position, quad.normal, quad.material, back);
+    }
+    return Leaving(vec3(0.0), vec3(0.0), 0, true);
 }
 
 // Towards a ball, evenly over the cone that it fills; from inside of it, nowhere.
@@ -130,7 +133,7 @@ Particle start_particle(precise inout Sampler rng) {
     bool is_front = leaving.is_front;
     if (aim != NOT_AIMED) {
         direction = direction_to(aimed_at(aim), leaving.position, v);
-        if (!is_of_sphere(light)) is_front = dot(direction, leaving.normal) > 0.0 == leaving.is_front;
+        if (!is_sphere_lamp(light.shape)) is_front = dot(direction, leaving.normal) > 0.0 == leaving.is_front;
     }
     precise float emission = pdf_emission(index, leaving.position, direction, aim);
     precise Material material = material_at(leaving.material);

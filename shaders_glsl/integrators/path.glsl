@@ -56,7 +56,7 @@ void shade(precise inout Path path, Vertex vertex, Ray from, precise inout Sampl
         precise vec3 sky = unhidden_sky(vertex.frame[2]);
         gather(path, weight * head_on_reflectance(vertex.material) * sky, BACKGROUND_LAYER, path.depth + 1);
     }
-    if (!(HAS_SPHERE_LIGHT || HAS_QUAD_LIGHT || HAS_DISK_LIGHT || HAS_MESH_LIGHT)) return;
+    if (LAMP_KINDS == 0) return;
     if (MODEL == COOK) {
         precise LightSample light = sample_light(from, total_weight(from), rng);
         precise vec3 direct = weight * direct_light(vertex, light, 0.0);

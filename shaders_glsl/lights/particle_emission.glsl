@@ -154,28 +154,31 @@ float share_of_side(int index, bool is_front) {
 
 Aspect aspect_of(int index, vec3 p, vec3 direction) {
     precise Light light = light_at(index);
-    if (is_of_sphere(light)) {
+    if (is_sphere_lamp(light.shape)) {
         precise Sphere sphere = sphere_at(light.shape);
         precise float area = 4.0 * PI * sphere.radius * sphere.radius;
         precise float cosine = dot(p - sphere.center, direction) / sphere.radius;
         return Aspect(area, larger(cosine, 0.0), 1.0);  // light from inside a lamp is found by scattering alone
     }
-    if (is_of_triangle(light)) {
+    if (is_triangle_lamp(light.shape)) {
         precise vec3 across = lamp_triangle(light.shape).across;
         precise float area = length(across);
         precise float cosine = abs(dot(across, direction)) / area;
         return Aspect(area, cosine, 0.5);
     }
-    if (is_of_disk(light)) {
-        precise Disk disk = disk_of(light);
+    if (is_disk_lamp(light.shape)) {
+        precise Disk disk = disk_lamp(light.shape);
         precise float area = PI * disk.radius * disk.radius;
         precise float cosine = dot(disk.normal, direction);
         return Aspect(area, abs(cosine), share_of_side(index, cosine > 0.0));
     }
-    precise Quad quad = quad_of(light);
-    precise float area = quad.width * quad.height;
-    precise float cosine = dot(quad.normal, direction);
-    return Aspect(area, abs(cosine), share_of_side(index, cosine > 0.0));
+    if (is_quad_lamp(light.shape)) {
+        precise Quad quad = quad_lamp(light.shape);
+        precise float area = quad.width * quad.height;
+        precise float cosine = dot(quad.normal, direction);
+        return Aspect(area, abs(cosine), share_of_side(index, cosine > 0.0));
+    }
+    return Aspect(1.0, 0.0, 1.0);
 }
 
 // PI times the density of particles that leave a lamp at p, per area and per projected solid angle; 0 where none

@@ -24,25 +24,6 @@ float cone_of_sphere(vec3 to_center, float radius) {
     return one_minus_cos;
 }
 
-bool is_of_sphere(Light light) {
-    bool has_others = HAS_QUAD_LIGHT || HAS_DISK_LIGHT || HAS_MESH_LIGHT;
-    return HAS_SPHERE_LIGHT && (!has_others || up_to_sphere(light.shape));
-}
-
-bool is_of_disk(Light light) {
-    if (HAS_MESH_LIGHT && is_triangle(light.shape)) return false;
-    if (HAS_SPHERE_LIGHT && up_to_sphere(light.shape)) return false;
-    return HAS_DISK_LIGHT && (!HAS_QUAD_LIGHT || !up_to_quad(light.shape));
-}
-
-Quad quad_of(Light light) {
-    return quad_at(light.shape - first_quad());
-}
-
-Disk disk_of(Light light) {
-    return disk_at(light.shape - first_disk());
-}
-
 // Whether a point lies off the disk's plane.
 bool is_beside(Disk disk, vec3 origin) {
     precise float z = dot(disk.center - origin, disk.normal);
@@ -53,13 +34,14 @@ bool is_beside(Disk disk, vec3 origin) {
 bool is_sampled(int index, Ray ray) {
     precise Light light = light_at(index);
     if (light.shape == ray.origin_shape) return false;
-    if (is_of_sphere(light)) {
+    if (is_sphere_lamp(light.shape)) {
         precise Sphere sphere = sphere_at(light.shape);
         return cone_of_sphere(sphere.center - ray.origin, sphere.radius) > 0.0;
     }
-    if (is_of_triangle(light)) return is_beside(lamp_triangle(light.shape), ray.origin);
-    if (is_of_disk(light)) return is_beside(disk_of(light), ray.origin);
-    return is_beside(quad_of(light), ray.origin);
+    if (is_triangle_lamp(light.shape)) return is_beside(lamp_triangle(light.shape), ray.origin);
+    if (is_disk_lamp(light.shape)) return is_beside(disk_lamp(light.shape), ray.origin);
+    if (is_quad_lamp(light.shape)) return is_beside(quad_lamp(light.shape), ray.origin);
+    return false;
 }
 
 // QUADS_BY_AREA: where both strategies are weighted, points even in area are as good as points even in
@@ -90,23 +72,26 @@ float pdf_disk(Disk disk, Ray ray, float distance) {
 float pdf_light(int index, Ray ray, float distance, float lamps) {
     if (!is_sampled(index, ray)) return 0.0;
     precise Light light = light_at(index);
-    if (is_of_sphere(light)) {
+    if (is_sphere_lamp(light.shape)) {
         precise Sphere sphere = sphere_at(light.shape);
         precise float one_minus_cos = cone_of_sphere(sphere.center - ray.origin, sphere.radius);
         precise float pdf = choice_pdf(index, ray, lamps) / (2.0 * PI * one_minus_cos);
         return pdf;
     }
-    if (is_of_triangle(light)) {
+    if (is_triangle_lamp(light.shape)) {
         precise LampTriangle triangle = lamp_triangle(light.shape);
         precise float pdf = choice_pdf(index, ray, lamps) * pdf_triangle(triangle, ray, distance);
         return pdf;
     }
-    if (is_of_disk(light)) {
-        precise float pdf = choice_pdf(index, ray, lamps) * pdf_disk(disk_of(light), ray, distance);
+    if (is_disk_lamp(light.shape)) {
+        precise float pdf = choice_pdf(index, ray, lamps) * pdf_disk(disk_lamp(light.shape), ray, distance);
         return pdf;
     }
-    precise float pdf = choice_pdf(index, ray, lamps) * pdf_quad(quad_of(light), ray, distance);
-    return pdf;
+    if (is_quad_lamp(light.shape)) {
+        precise float pdf = choice_pdf(index, ray, lamps) * pdf_quad(quad_lamp(light.shape), ray, distance);
+        return pdf;
+    }
+    return 0.0;
 }
 
 // Whether lamps are seen from where they emit nothing: what stands before them is then no matter.
@@ -151,7 +136,7 @@ LampPoint flat_point(vec3 to_point, int material, vec3 normal) {
 }
 
 LampPoint quad_point(Ray ray, int shape, vec2 u) {
-    precise Quad quad = quad_at(shape - first_quad());
+    precise Quad quad = quad_lamp(shape);
     precise vec2 share = u;
     if (!QUADS_BY_AREA) share = sample_strips(quad, view_strips(quad, ray.origin), u);
     precise vec3 to_point = quad.corner - ray.origin + share.x * quad.edge_u + share.y * quad.edge_v;
@@ -159,7 +144,7 @@ LampPoint quad_point(Ray ray, int shape, vec2 u) {
 }
 
 LampPoint disk_point(Ray ray, int shape, vec2 u) {
-    precise Disk disk = disk_at(shape - first_disk());
+    precise Disk disk = disk_lamp(shape);
     precise vec2 place = disk.radius * sample_disk(u);
     precise vec3 to_place = disk.center - ray.origin + frame_around(disk.normal) * vec3(place, 0.0);
     return flat_point(to_place, disk.material, disk.normal);
@@ -173,10 +158,11 @@ LampPoint triangle_point(Ray ray, int shape, vec2 u) {
 }
 
 LampPoint sample_point(Light light, Ray ray, vec2 u) {
-    if (is_of_sphere(light)) return sphere_point(ray, light.shape, u);
-    if (is_of_triangle(light)) return triangle_point(ray, light.shape, u);
-    if (is_of_disk(light)) return disk_point(ray, light.shape, u);
-    return quad_point(ray, light.shape, u);
+    if (is_sphere_lamp(light.shape)) return sphere_point(ray, light.shape, u);
+    if (is_triangle_lamp(light.shape)) return triangle_point(ray, light.shape, u);
+    if (is_disk_lamp(light.shape)) return disk_point(ray, light.shape, u);
+    if (is_quad_lamp(light.shape)) return quad_point(ray, light.shape, u);
+    return no_lamp_point();
 }
 
 // Of the lamp with this index, as `sample_light` has it.

@@ -1,10 +1,5 @@
 // Triangles of meshes as lamps: points on them, even in area.
 
-bool is_of_triangle(Light light) {
-    bool has_others = HAS_SPHERE_LIGHT || HAS_QUAD_LIGHT || HAS_DISK_LIGHT;
-    return HAS_MESH_LIGHT && (!has_others || is_triangle(light.shape));
-}
-
 // A triangle that emits, relative to the camera.
 struct LampTriangle {
     vec3 a;

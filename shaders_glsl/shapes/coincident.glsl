@@ -9,10 +9,6 @@ const float APART = 2.0 * CLEARANCE;
 const float TOGETHER = 4.0 * CLEARANCE;
 const float STEEP = 3.90625e-3;  // 2^-8, a cosine: at smaller angles, nearly along them, surfaces do not tie
 
-bool is_box(int shape) { return shape >= first_box() && shape < first_box() + box_count(); }
-
-bool is_cylinder(int shape) { return shape >= first_cylinder() && shape < first_cylinder() + cylinder_count(); }
-
 float coincident_reach(Ray ray) {
     precise vec3 size = abs(ray.origin);
     precise float reach = larger(frame.coincident_reach, larger(larger(size.x, size.y), size.z));

@@ -1,5 +1,7 @@
 """The tables of steps: each edit of the shaders has its place, and changes noise, not the mean."""
 
+from collections.abc import Sequence
+
 import numpy as np
 import pytest
 
@@ -8,7 +10,8 @@ from bench.shader_edits import Edit, edited
 from bench.steps import BY_FLUX, STARTS, TABLES, by_start, main, roulette
 from glrt.gpu.context import Context
 from glrt.image.image import Image
-from glrt.packing import lamp_bounds
+from glrt.packing.lamp_bounds import Bodies, bodies_of
+from glrt.scene.shapes.kinds import Shape
 from tests.support.renders import assert_agree, same
 
 EDITS = {tuple(way.edits) for table in TABLES.values() for way in table.values()} - {()}
@@ -45,11 +48,13 @@ def test_edits_do_what_they_are_named_for(
     assert same(picture(context, Way({}, roulette("0.25"))), plain)
     assert same(picture(context, Way({}, roulette("0.25", 1000))), never)
     by_flux = picture(context, Way({}, BY_FLUX))
-    far = {
-        kind: lambda lamp, body=body: body(lamp)._replace(center=np.zeros(3), spread2=2.0**40)
-        for kind, body in lamp_bounds.LAMPS.items()
-    }
-    monkeypatch.setattr(lamp_bounds, "LAMPS", far)  # none is nearer
+
+    def far(lamps: Sequence[Shape]) -> Bodies:
+        found = bodies_of(lamps)
+        apart = np.full_like(found.spread2, 2.0**40)
+        return found._replace(center=np.zeros_like(found.center), spread2=apart)
+
+    monkeypatch.setattr("glrt.packing.lights.bodies_of", far)  # none is nearer
     assert same(by_flux, picture(context, PLAIN))
 
 

@@ -274,6 +274,6 @@ def test_a_loop_that_a_driver_cuts_is_noticed(
                 "vec2",
                 setup=f"loop_was_cut = false; uint x = 7u; {before} {body}",
                 scene=scene,
-                constants={"MODEL": model, "HAS_SPHERE_LIGHT": True},
+                constants={"MODEL": model, "HAS_SPHERE_LIGHT": True, "LAMP_KINDS": 1},
             )[0]
             assert found[1] == is_cut

@@ -206,15 +206,11 @@ def test_a_scene_asks_for_the_features_that_it_uses(name: str) -> None:
 
 
 def tenth(start: int) -> set[str]:
-    """Each tenth feature, and what those need.
-
-    Where there are lamps of two kinds, the code of quads is there for what is neither.
-    """
+    """Each tenth feature, and the features that it needs."""
     found = set(sorted(FLAGS)[start::10])
     while more := {it for flag in found for it in NEEDED_TOO.get(flag, ())} - found:
         found |= more
-    kinds = found & {"HAS_SPHERE_LIGHT", "HAS_DISK_LIGHT", "HAS_MESH_LIGHT"}
-    return found | ({"HAS_QUAD_LIGHT", "HAS_QUAD"} if len(kinds) > 1 else set())
+    return found
 
 
 MIXED = {f"tenth {start}": tenth(start) for start in range(10)}

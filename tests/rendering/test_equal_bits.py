@@ -12,12 +12,12 @@ import pytest
 from glrt.gpu import struct_arrays
 from glrt.gpu.context import Context, open_context
 from glrt.image.image import Image
-from glrt.plan.facts import SAMPLED, SceneFacts
+from glrt.plan.facts import SceneFacts
 from glrt.plan.features import Needs, needs_of
 from glrt.rendering.renderer import Renderer
 from glrt.scene import instancing
 from glrt.scene.materials.kinds import TYPES
-from glrt.scene.shapes.kinds import KINDS
+from glrt.scene.shapes.kinds import KINDS, SAMPLED
 from glrt.settings import settings_for
 from tests.support import profiles
 from tests.support.every_feature import RENDERS

@@ -7,7 +7,7 @@ import pytest
 
 from glrt.core.errors import SceneError
 from glrt.plan.facts import SceneFacts
-from glrt.scene.glasses import glasses_of, holds
+from glrt.scene.glasses import glasses_of
 from glrt.scene.loading.scene_files import mesh_problems
 from glrt.scene.warnings import cautions
 from glrt.settings import settings_for
@@ -100,9 +100,9 @@ SOLIDS = [
 @pytest.mark.parametrize(("solid", "inside"), SOLIDS)
 def test_solids_hold_what_lies_inside(solid: dict[str, Any], inside: list[float]) -> None:
     shape = scene_of([solid], {"glass": glass()}).objects[0]
-    assert holds(shape, np.array(inside))
+    assert shape.holds(np.array(inside))
     for far in ([9.0, 9, 9], [1.0, 6, -1], [2.0, 4.9, 3.9]):
-        assert not holds(shape, np.array(far))
+        assert not shape.holds(np.array(far))
 
 
 def test_the_glass_around_the_camera_is_the_highest_or_else_the_smallest() -> None:

@@ -1,39 +1,23 @@
-"""Every kind of lamp that is sampled has its branch wherever the shaders tell kinds apart.
+"""Every kind of lamp that is sampled is named wherever shaders distinguish kinds of lamps.
 
-The last branch of such a function takes what is left: without this test another kind of lamp would
-be sampled as a quad.
+A shape of a kind that is missing in a function is no lamp there, so its light would be lost.
 """
 
-import re
+from pathlib import Path
 
-from glrt.gpu.glsl import read
-from glrt.plan.facts import SAMPLED
+from glrt.scene.shapes.kinds import SAMPLED
+from tests.support.lamp_kinds import unnamed
 
-FILES = ("lights/sampling.glsl", "integrators/classic.glsl", "integrators/path.glsl")
-TELLING = {
-    "is_of_sphere",
-    "is_of_disk",
-    "point_lamp",
-    "shade",
-}  # functions that tell kinds of lamps apart
-
-
-def functions() -> dict[str, str]:
-    """The bodies of the functions of FILES, by name."""
-    text = "".join(map(read, FILES))
-    return dict(re.findall(r"^\w+ (\w+)\([^;]*?\) \{(.*?)^\}", text, re.MULTILINE | re.DOTALL))
-
-
-def unnamed(kinds: tuple[str, ...]) -> set[str]:
-    """Functions that name the flag of one kind of lamp, but not those of all `kinds`."""
-    flags = [f"HAS_{kind.upper()}_LIGHT" for kind in kinds]
-    bodies = {name: set(re.findall(r"HAS_\w+_LIGHT", b)) for name, b in functions().items()}
-    return {name for name, found in bodies.items() if found and not found.issuperset(flags)}
+SHADERS = Path(__file__).parents[2] / "shaders_glsl"
+DISTINGUISHING = {
+    *("is_sampled", "pdf_light", "sample_point", "aspect_of", "point_lamp", "place_on"),
+    "lamp_normal",
+}
 
 
 def test_every_kind_of_lamp_is_named_where_kinds_are_distinguished() -> None:
-    assert unnamed(SAMPLED) == set()
+    assert unnamed(SAMPLED, SHADERS) == set()
 
 
-def test_a_kind_of_lamp_that_is_not_there_is_missed_everywhere() -> None:
-    assert unnamed((*SAMPLED, "annulus")) == TELLING
+def test_a_kind_without_code_is_missed_everywhere() -> None:
+    assert unnamed((*SAMPLED, "annulus"), SHADERS) == DISTINGUISHING

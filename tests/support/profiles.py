@@ -23,6 +23,7 @@ from glrt.plan.facts import SceneFacts
 from glrt.plan.features import Needs, needs_of
 from glrt.rendering import aov_tracer, pipelines, schedule
 from glrt.rendering.schedule import rounds_of_search
+from glrt.scene.shapes.kinds import SAMPLED
 from glrt.settings import Settings
 
 Constants = dict[str, bool | int]
@@ -59,7 +60,9 @@ def rounded_up(constants: Constants) -> Constants:
             more.add("QUADS_BY_AREA")
     if "HAS_PARTICLES" not in on:  # the sky may send particles
         more.add("HAS_BACKGROUND")
-    return {**constants, **dict.fromkeys(more, True)}
+    rounded = {**constants, **dict.fromkeys(more, True)}
+    lamps = (f"HAS_{kind.upper()}_LIGHT" for kind in SAMPLED)
+    return {**rounded, "LAMP_KINDS": sum(bool(rounded[lamp]) for lamp in lamps)}
 
 
 class RoundedNeeds(Needs):

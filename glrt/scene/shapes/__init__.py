@@ -3,6 +3,8 @@
 Modules, each importing only what stands above it:
 
 - faces: flat faces and their edges, for outlines
+- flat_faces: flat faces of solids, to find two that share a part of a plane
+- texture_axes: axes of texture coordinates of flat shapes
 - base: base classes of shapes
 - box: boxes
 - mesh: placed triangle meshes
@@ -13,6 +15,4 @@ Modules, each importing only what stands above it:
 - quad: parallelograms
 - sphere: spheres
 - kinds: all kinds of shapes
-- texture_axes: texture coordinates of flat shapes
-- flat_faces: solids that share a part of a plane
 """

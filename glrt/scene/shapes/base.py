@@ -2,18 +2,31 @@
 
 import math
 from abc import abstractmethod
-from typing import Annotated, Any, ClassVar, Literal
+from collections.abc import Sequence
+from typing import Annotated, Any, ClassVar, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
 from glrt.scene.shapes.faces import Faces
+from glrt.scene.shapes.flat_faces import FlatFace
+from glrt.scene.shapes.texture_axes import TextureAxes
 from glrt.scene.values import Name, Tagged, Vector
 from glrt.settings import Cost, Editable
 
 Array = NDArray[np.float64]
 UP = np.array([0.0, 1.0, 0.0])
+
+
+class LampBody(NamedTuple):
+    """Place and extent of a lamp, by which light sampling chooses it."""
+
+    area: float  # of both sides; of the outside alone for a sphere
+    center: Array  # (3,), float64
+    spread2: float  # mean squared distance of its points from the center
+    reach: float  # the largest such distance
+    normal: Array  # (3,), of any length; 0 for a sphere
 
 
 class Object(Tagged):
@@ -31,6 +44,7 @@ class Object(Tagged):
     )
 
     has_inside: ClassVar[bool]  # whether the kind can be of glass
+    has_coordinates: ClassVar[bool] = False  # whether textures can lie on it
     anchor: ClassVar[str]  # the field with a point that moves with the shape
     points: ClassVar[tuple[str, ...]] = ()  # fields with further points, which move along
     extents: ClassVar[tuple[str, ...]]  # the fields, lengths or vectors, that grow with its size
@@ -68,6 +82,40 @@ class Object(Tagged):
         """
 
     @property
+    def is_bounded(self) -> bool:
+        """Whether the shape ends: some ball holds it."""
+        return math.isfinite(self.reach)
+
+    @property
+    def lamp_body(self) -> LampBody | None:
+        """Place and extent as a lamp.
+
+        None for a kind that light sampling and particles do not know; paths find it by scattering.
+        """
+        return None
+
+    @property
+    def texture_axes(self) -> TextureAxes | None:
+        """Axes of texture coordinates; None if the kernel has another rule for the kind."""
+        return None
+
+    @property
+    def flat_faces(self) -> Sequence[FlatFace]:
+        """Flat faces of a solid, to find solids that share a part of a plane."""
+        return ()
+
+    def holds(self, point: Array) -> bool:
+        """Return whether a point, (3,), lies inside a shape that encloses a volume.
+
+        A shape that is not convex has its own rule: from inside a convex one, a line leaves it
+        both ways.
+        """
+        rows, line = np.array([self.row], np.float64), np.array([0.6, 0.64, 0.48])
+        with np.errstate(divide="ignore", invalid="ignore"):
+            ways = [self.distances(rows, point, way)[0] for way in (line, -line)]
+        return bool(np.isfinite(ways).all())
+
+    @property
     @abstractmethod
     def polygons(self) -> Array:
         """Flat surfaces as convex polygons in scene units, (n, k, 3), with corners in order round.
@@ -99,6 +147,11 @@ class Object(Tagged):
 
         The boxes are aligned with the axes.
         """
+
+    @classmethod
+    def gaps(cls, rows: Array, point: Array) -> Array:
+        """Return distances from a point, (3,), to n shapes or to the boxes around them, (n,)."""
+        return np.asarray(np.linalg.norm(point - np.clip(point, *cls.bounds(rows)), axis=1))
 
     @staticmethod
     @abstractmethod

@@ -1,6 +1,7 @@
 """Boxes, along the axes or turned."""
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Literal, Self
 
 import numpy as np
@@ -8,6 +9,7 @@ from pydantic import Field, model_validator
 
 from glrt.scene.shapes.base import Array, Object
 from glrt.scene.shapes.faces import Faces, box_faces
+from glrt.scene.shapes.flat_faces import FlatFace
 from glrt.scene.values import SMALLEST, Triple, Vector
 
 
@@ -95,6 +97,16 @@ class Box(Object):
         ]
         corners: Array = np.array(self.middle) + np.array(faces)
         return corners
+
+    @property
+    def flat_faces(self) -> Sequence[FlatFace]:
+        """The six faces."""
+        edges, middle = self.axes * self.halves[:, None], np.array(self.middle)
+        return [
+            FlatFace(middle + side * edges[k], edges[k - 2], edges[k - 1], axis, False)
+            for k, axis in enumerate(self.axes)
+            for side in (-1.0, 1.0)
+        ]
 
     @property
     def faces(self) -> Faces:

@@ -1,6 +1,7 @@
 """Cylinders, open at their ends or closed."""
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Literal, Self
 
 import numpy as np
@@ -9,6 +10,7 @@ from pydantic import Field, create_model, model_validator
 from glrt.scene.shapes.base import NO_POLYGONS, UP, Array, Object, dots, ring
 from glrt.scene.shapes.box import nearest_of_two
 from glrt.scene.shapes.faces import STEPS, Faces, circle, faces_of_triangles
+from glrt.scene.shapes.flat_faces import FlatFace
 from glrt.scene.values import SMALLEST, Length, Number, Triple, Vector
 
 if TYPE_CHECKING:
@@ -121,6 +123,17 @@ class Cylinder(_Ended):
         return np.array(
             [ring(np.array(end), self.axis, self.radius) for end in (self.from_, self.to)]
         )
+
+    @property
+    def flat_faces(self) -> Sequence[FlatFace]:
+        """The caps; none for an open cylinder."""
+        if not self.capped:
+            return ()
+        across = np.cross(self.axis, np.eye(3)[np.abs(self.axis).argmin()])
+        u = self.radius * across / np.linalg.norm(across)
+        v = np.cross(self.axis, u)
+        ends = np.array(self.from_), np.array(self.to)
+        return [FlatFace(end, u, v, self.axis, True) for end in ends]
 
     @property
     def faces(self) -> Faces:

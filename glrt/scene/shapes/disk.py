@@ -9,12 +9,14 @@ from pydantic import Field
 from glrt.scene.shapes.base import (
     UP,
     Array,
+    LampBody,
     Sided,
     ring,
     to_planes,
     unsigned,
 )
 from glrt.scene.shapes.faces import Faces, circle, flat_face
+from glrt.scene.shapes.texture_axes import TextureAxes, axes_across
 from glrt.scene.values import Direction, Length, Number, Triple, Vector
 
 
@@ -27,6 +29,7 @@ class Disk(Sided):
     radius: Length = Field(description="radius in scene units")
 
     has_inside = False
+    has_coordinates = True
     anchor = "center"
     extents = ("radius",)
 
@@ -70,6 +73,21 @@ class Disk(Sided):
         """One polygon in the rim, (1, k, 3)."""
         normal = np.array(self.normal) / np.linalg.norm(self.normal)
         return ring(np.array(self.center), normal, self.radius)[None]
+
+    @property
+    def lamp_body(self) -> LampBody:
+        """Place and extent as a lamp, with the area of both sides."""
+        area, center = 2 * math.pi * self.radius**2, np.array(self.center, np.float64)
+        normal = np.array(self.normal, np.float64)
+        return LampBody(area, center, self.radius**2 / 2, self.radius, normal)
+
+    @property
+    def texture_axes(self) -> TextureAxes:
+        """Axes over the square around the disk."""
+        u, v = axes_across(self.normal)
+        center = np.array(self.center, np.float64)
+        corner = center - self.radius * (u + v)
+        return TextureAxes(corner, u / (2 * self.radius), v / (2 * self.radius))
 
     @property
     def faces(self) -> Faces:

@@ -10,6 +10,7 @@ from typing import Annotated, Any, get_args
 
 from pydantic import Field
 
+from glrt.scene.shapes.base import Object
 from glrt.scene.shapes.box import Box
 from glrt.scene.shapes.cylinder import Cylinder
 from glrt.scene.shapes.disk import Disk
@@ -25,6 +26,10 @@ Shape = Annotated[
 KINDS: dict[str, Any] = {  # the model of each kind, in the order of the kernel's numbering
     kind.model_fields["shape"].default: kind for kind in get_args(get_args(Shape)[0])
 }
+
+SAMPLED = tuple(  # kinds of lamps that are sampled and send particles; triangles are, one by one
+    name for name, kind in KINDS.items() if kind is Mesh or kind.lamp_body is not Object.lamp_body
+)
 
 for _kind in KINDS.values():
     if isabstract(_kind):

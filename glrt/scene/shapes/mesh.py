@@ -100,6 +100,7 @@ class Mesh(Sided):
     )
 
     has_inside = True
+    has_coordinates = True
     anchor = "translate"
     extents = ("scale",)
 
@@ -230,6 +231,19 @@ class Mesh(Sided):
         """Triangles in scene units, (n, 3, 3)."""
         corners: Array = self.world_vertices[self.triangles.faces]
         return corners
+
+    def holds(self, point: Array) -> bool:
+        """Return whether the mesh winds around a point, (3,) (van Oosterom and Strackee 1983)."""
+        if np.linalg.norm(point - self.middle) > self.reach:
+            return False
+        corners = self.world_vertices - point
+        a, b, c = (corners[self.triangles.faces[:, k]] for k in range(3))
+        la, lb, lc = (np.linalg.norm(corner, axis=1) for corner in (a, b, c))
+        volume = (a * np.cross(b, c)).sum(axis=1)
+        rest = la * lb * lc + (a * b).sum(axis=1) * lc
+        rest += (b * c).sum(axis=1) * la + (c * a).sum(axis=1) * lb
+        turns = abs(np.arctan2(volume, rest).sum()) / (2 * np.pi)
+        return bool(turns > 0.5)
 
     @property
     def faces(self) -> Faces:

@@ -1,6 +1,7 @@
 """Infinite planes."""
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -14,6 +15,8 @@ from glrt.scene.shapes.base import (
     unsigned,
 )
 from glrt.scene.shapes.faces import STEPS, Faces, circle, flat_face
+from glrt.scene.shapes.flat_faces import FlatFace
+from glrt.scene.shapes.texture_axes import TextureAxes, axes_across
 from glrt.scene.values import Direction, Triple, Vector
 
 
@@ -25,6 +28,7 @@ class Plane(Cornerless):
     normal: Direction = Field(description="normal of the plane, of any length above 0")
 
     has_inside = True
+    has_coordinates = True
     anchor = "point"
     extents = ()
 
@@ -62,6 +66,21 @@ class Plane(Cornerless):
         return np.array([[*normal, normal @ (np.array(self.point) - about)]])
 
     @property
+    def texture_axes(self) -> TextureAxes:
+        """Axes in scene units from the point."""
+        return TextureAxes(np.array(self.point, np.float64), *axes_across(self.normal))
+
+    @property
+    def flat_faces(self) -> Sequence[FlatFace]:
+        """The plane itself."""
+        normal = np.array(self.normal) / np.linalg.norm(self.normal)
+        return [FlatFace(np.array(self.point), np.zeros(3), np.zeros(3), normal, False)]
+
+    def holds(self, point: Array) -> bool:
+        """Return whether a point, (3,), lies behind the plane."""
+        return bool((point - np.array(self.point)) @ np.asarray(self.normal) < 0)
+
+    @property
     def faces(self) -> Faces:
         """A square about its point, with edges of length 1: a plane has no end."""
         axis = np.array(self.normal) / np.linalg.norm(self.normal)
@@ -78,6 +97,12 @@ class Plane(Cornerless):
         """Return infinite boxes, (n, 3) each corner."""
         endless = np.full((len(rows), 3), math.inf)
         return -endless, endless
+
+    @classmethod
+    def gaps(cls, rows: Array, point: Array) -> Array:
+        """Return distances from a point, (3,), to n planes, (n,)."""
+        away = ((point - rows[:, :3]) * rows[:, 3:]).sum(axis=1)
+        return np.asarray(np.abs(away) / np.linalg.norm(rows[:, 3:], axis=1))
 
     @staticmethod
     def distances(rows: Array, origin: Array, direction: Array) -> Array:

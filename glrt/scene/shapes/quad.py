@@ -8,10 +8,12 @@ from pydantic import Field, model_validator
 
 from glrt.scene.shapes.base import (
     Array,
+    LampBody,
     Sided,
     to_planes,
 )
 from glrt.scene.shapes.faces import Faces, flat_face
+from glrt.scene.shapes.texture_axes import TextureAxes
 from glrt.scene.values import Direction, Triple, Vector, are_parallel
 
 
@@ -26,6 +28,7 @@ class Quad(Sided):
     )
 
     has_inside = False
+    has_coordinates = True
     anchor = "corner"
     extents = ("edge_u", "edge_v")
 
@@ -80,6 +83,23 @@ class Quad(Sided):
         u, v = np.array(self.edge_u), np.array(self.edge_v)
         corners: Array = np.array(self.corner) + np.array([[0 * u, u, u + v, v]])
         return corners
+
+    @property
+    def lamp_body(self) -> LampBody:
+        """Place and extent as a lamp, with the area of both sides."""
+        u, v = np.array(self.edge_u, np.float64), np.array(self.edge_v, np.float64)
+        center, across = np.array(self.corner, np.float64) + (u + v) / 2, np.cross(u, v)
+        area, spread2 = 2 * float(np.linalg.norm(across)), float(u @ u + v @ v) / 12
+        return LampBody(area, center, spread2, self.reach, across)
+
+    @property
+    def texture_axes(self) -> TextureAxes:
+        """Axes along the edges from the corner."""
+        edge_u, edge_v = np.array(self.edge_u, np.float64), np.array(self.edge_v, np.float64)
+        normal = np.cross(edge_u, edge_v)
+        area = normal @ normal
+        dual_u, dual_v = np.cross(edge_v, normal) / area, np.cross(normal, edge_u) / area
+        return TextureAxes(np.array(self.corner, np.float64), dual_u, dual_v)
 
     @property
     def faces(self) -> Faces:

@@ -9,6 +9,7 @@ from pydantic import Field
 from glrt.scene.shapes.base import (
     Array,
     Cornerless,
+    LampBody,
     along_and_rest,
 )
 from glrt.scene.values import Length, Number, Triple, Vector
@@ -22,6 +23,7 @@ class Sphere(Cornerless):
     radius: Length = Field(description="radius in scene units")
 
     has_inside = True
+    has_coordinates = True
     anchor = "center"
     extents = ("radius",)
 
@@ -58,6 +60,12 @@ class Sphere(Cornerless):
         return np.array([[*(np.array(self.center) - about), self.radius]])
 
     @property
+    def lamp_body(self) -> LampBody:
+        """Place and extent as a lamp, which emits outwards."""
+        area, center = 4 * math.pi * self.radius**2, np.array(self.center, np.float64)
+        return LampBody(area, center, self.radius**2, self.radius, np.zeros(3))
+
+    @property
     def faces(self) -> None:
         """None: a sphere has no flat faces."""
         return None
@@ -71,6 +79,11 @@ class Sphere(Cornerless):
     def bounds(rows: Array) -> tuple[Array, Array]:
         """Return low and high corners of boxes around the spheres, (n, 3) each."""
         return rows[:, :3] - rows[:, 3:], rows[:, :3] + rows[:, 3:]
+
+    @classmethod
+    def gaps(cls, rows: Array, point: Array) -> Array:
+        """Return distances from a point, (3,), to n spheres, (n,); negative inside."""
+        return np.asarray(np.linalg.norm(point - rows[:, :3], axis=1) - rows[:, 3])
 
     @staticmethod
     def distances(rows: Array, origin: Array, direction: Array) -> Array:
