@@ -108,10 +108,7 @@ void record_link(float pdf, float other_pdf, float weight) {
     record_weight(other_pdf, weight);
 }
 
-bool goes_on(int reason) {
-    end_reason = reason;
-    return false;
-}
+void record_end(int reason) { end_reason = reason; }
 
 #include "trace.glsl"
 

@@ -54,6 +54,7 @@
 #include "probes/reservoir.glsl"
 #include "film/finite.glsl"
 #include "probes/resampling.glsl"
+#include "integrators/meeting.glsl"
 #include "integrators/path_beside_particles.glsl"
 #include "integrators/path.glsl"
 #include "film/pixel.glsl"

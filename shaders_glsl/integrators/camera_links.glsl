@@ -49,22 +49,22 @@ bool leaves_so(Vertex vertex, vec3 wi, precise inout Ray ray) {
     return wi.z > 0.0 || crosses && is_rough_glass(vertex.material);
 }
 
-// Brings the eye what a particle scatters straight to it; `ray` leaves the vertex. `behind`: what the other side
-// absorbs.
-void link_straight(Particle self, Vertex vertex, Normals normals, Ray ray, vec3 behind, Eye eye) {
+// Brings the eye what a particle scatters straight to it.
+void link_straight(Particle self, Meeting at, Eye eye) {
+    precise Ray ray = at.ray;
     precise vec3 away = eye.position - ray.origin;
     precise float distance = length(away);
     ray.direction = away / distance;
-    precise vec3 wi = to_local(vertex.frame, ray.direction);
-    if (!leaves_so(vertex, wi, ray) || dot(ray.direction, frame.camera.forward) >= 0.0) return;
+    precise vec3 wi = to_local(at.vertex.frame, ray.direction);
+    if (!leaves_so(at.vertex, wi, ray) || dot(ray.direction, frame.camera.forward) >= 0.0) return;
     precise vec2 place = place_on_film(-ray.direction, eye.lens);
     if (!is_on_film(place)) return;
-    precise Turn turn = turn_of_link(vertex, normals, -self.path.ray.direction, ray.direction);
+    precise Turn turn = turn_of_link(at.vertex, at.normals, -self.path.ray.direction, ray.direction);
     if (turn.turn == 0.0) return;
     precise float pdf = pdf_film(-ray.direction, abs(wi.z), distance);
     precise float weight = weight_of_link(self, pdf / (frame.particles * self.emission), turn.turn);
     precise vec3 flux = self.power * self.path.throughput;
-    if (HAS_ATTENUATION) flux *= share_left(wi.z < 0.0 ? behind : self.path.absorption, distance);
+    if (HAS_ATTENUATION) flux *= share_left(wi.z < 0.0 ? at.behind : self.path.absorption, distance);
     precise vec3 value = flux * turn.value * (pdf * weight);
     if (value == vec3(0.0) || occluded(ray, distance, NO_SHAPE)) return;
     record_link(frame.particles * self.emission, pdf, weight);
@@ -93,8 +93,8 @@ Way way_of(Arc arc, vec3 center, Crossing at, float sense) {
 }
 
 // Brings the eye what a particle scatters to it through one sphere, by one way that is drawn.
-void link_through_sphere(Particle self, Vertex vertex, Normals normals, Ray ray, vec3 behind, Eye eye,
-                         precise inout Sampler rng) {
+void link_through_sphere(Particle self, Meeting from, Eye eye, precise inout Sampler rng) {
+    precise Ray ray = from.ray;
     precise vec2 pick = next_2d(rng);
     precise float by_branch = next_1d(rng);
     int count = bitCount(LINKED);
@@ -112,20 +112,20 @@ void link_through_sphere(Particle self, Vertex vertex, Normals normals, Ray ray,
     precise vec3 away = way.far - ray.origin;
     precise float distance = length(away);
     ray.direction = away / distance;
-    precise vec3 wi = to_local(vertex.frame, ray.direction);
+    precise vec3 wi = to_local(from.vertex.frame, ray.direction);
     precise vec2 place = place_on_film(way.direction, eye.lens);
     bool is_seen = dot(way.direction, frame.camera.forward) > 0.0 && is_on_film(place);
-    if (!leaves_so(vertex, wi, ray) || !is_seen) return;
+    if (!leaves_so(from.vertex, wi, ray) || !is_seen) return;
     precise float film = pdf_camera(way.direction);
     precise float rho = pdf_of_way(film, material, arc, at, abs(wi.z)) / linked_this_way(material, arc, at);
     if (rho == 0.0) return;  // no link: beside a kappa that is infinite it would have no weight
-    precise Turn turn = turn_of_link(vertex, normals, -self.path.ray.direction, ray.direction);
+    precise Turn turn = turn_of_link(from.vertex, from.normals, -self.path.ray.direction, ray.direction);
     if (turn.turn == 0.0) return;
     precise float weight = weight_of_link(self, rho / self.emission, turn.turn);
     precise vec3 back = eye.position - way.near;
     precise float reach = length(back);
     precise vec3 flux = self.power * self.path.throughput * tint_of(material, arc, at);
-    if (HAS_ATTENUATION) flux *= share_left(wi.z < 0.0 ? behind : self.path.absorption, distance + reach);
+    if (HAS_ATTENUATION) flux *= share_left(wi.z < 0.0 ? from.behind : self.path.absorption, distance + reach);
     precise vec3 value = flux * turn.value * (frame.particles * rho * weight);
     if (value == vec3(0.0) || occluded(ray, distance, index)) return;
     if (occluded(Ray(way.near, back / reach, index, false), reach, index)) return;
@@ -133,13 +133,12 @@ void link_through_sphere(Particle self, Vertex vertex, Normals normals, Ray ray,
     splat(place, value, layer_of(self, self.path.depth + 2 + chords));
 }
 
-// Brings the camera what a particle scatters to it at a vertex that is not smooth; `ray` and `behind` as above.
-// `by_spheres`: through one of them, too.
-void link_to_camera(Particle self, Vertex vertex, Normals normals, Ray ray, vec3 behind, bool by_spheres,
-                    precise inout Sampler rng) {
+// Brings the camera what a particle scatters to it at a surface that is not smooth; `by_spheres`: through one of them,
+// too.
+void link_to_camera(Particle self, Meeting at, bool by_spheres, precise inout Sampler rng) {
     precise Eye eye = sample_eye(rng);
-    link_straight(self, vertex, normals, ray, behind, eye);
+    link_straight(self, at, eye);
     // A loop, for llvmpipe runs what an `if` is about in any case, but leaves out a loop that no lane enters.
     int tries = LINKED != 0 && by_spheres ? 1 : 0;
-    for (int i = 0; i < tries; ++i) link_through_sphere(self, vertex, normals, ray, behind, eye, rng);
+    for (int i = 0; i < tries; ++i) link_through_sphere(self, at, eye, rng);
 }

@@ -29,5 +29,5 @@ void record_sample(vec3 direction, float distance) {}
 // Light was found with the density `pdf`: `radiance` is what shines there, `added` what the pixel gets.
 void record_light(int strategy, int object, float pdf, vec3 radiance, vec3 added) {}
 
-// The path ends: always false.
-bool goes_on(int reason) { return false; }
+// The path ends.
+void record_end(int reason) {}

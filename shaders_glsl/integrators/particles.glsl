@@ -2,15 +2,16 @@
 
 const float KEEP = 2.0;  // as ends_at_random has it: a link of a particle costs the same, however little it brings
 
-// P1 / P0 of a particle at the first vertex that it meets, as if that were matte; `ray` leaves there, in any direction.
-float kappa_of(int light, Vertex vertex, Ray ray, vec3 towards, float distance) {
-    ray.direction = towards;
+// P1 / P0 of a particle at the first surface that it meets, as if that were matte; `distance`: from its lamp.
+float kappa_of(int light, Meeting at, float distance) {
+    precise Ray ray = at.ray;
+    ray.direction = -ray.direction;
     precise float sampled = 0.0;
     if (SKY_SENDS) {
-        if (SAMPLE_SKY) sampled = pdf_sky(towards);
+        if (SAMPLE_SKY) sampled = pdf_sky(ray.direction);
     } else if (HAS_SUN && light == SUN_LIGHT) sampled = pdf_sun();
     else sampled = pdf_light(light, ray, distance, total_weight(ray));
-    precise float kappa = sampled * PI / vertex.wo.z;
+    precise float kappa = sampled * PI / at.vertex.wo.z;
     return kappa;
 }
 
@@ -83,46 +84,32 @@ bool extend_particle(precise inout Particle self, bool by_spheres, precise inout
     precise Hit hit = closest_hit(self.path.ray);
     if (hit.shape == NO_SHAPE || self.path.depth == frame.bounces) return false;
     precise Surface surface = surface_at(self.path.ray, hit);
-    precise Material material = material_of(self.path.ray, surface);
-    precise vec3 facing = true_normal(surface);
-    precise float side = dot(direction, facing) < 0.0 ? 1.0 : -1.0;  // 1: outer
-    facing *= side;
+    precise Material whole = material_of(self.path.ray, surface);
+    bool enters = dot(direction, true_normal(surface)) < 0.0;
     if (HAS_COINCIDENT && self.path.depth == 0) {
-        precise Ray back = Ray(surface.position, -direction, surface.shape, side < 0.0);
+        precise Ray back = Ray(surface.position, -direction, surface.shape, !enters);
         if (!is_from_seen(self, back)) return false;
     }
-    if (HAS_ATTENUATION) absorb(self.path, material, side < 0.0, hit.distance);
+    absorb(self.path, whole, !enters, hit.distance);
     record_vertex(surface.position, true_normal(surface), surface.normal, object_number(surface.shape), hit.distance,
                   self.path.throughput);
-    if (HAS_NESTED && passes(self.path, surface, material, side > 0.0)) return true;
-    if (HAS_TRANSMISSION && material.kind == PRINCIPLED) material = met_part(material, next_1d(rng));
+    if (HAS_NESTED && is_within_other_glass(self.path, whole, enters)) {
+        pass_glass(self.path, surface, whole, enters);
+        return true;
+    }
+    precise Material material = part_met(whole, rng);
     if (!carries_particles(material)) return false;
-    precise mat3 around = frame_around(facing);
-    precise Vertex vertex = vertex_of(around, to_local(around, -direction), material, side > 0.0);
-    precise Ray ray = Ray(surface.position, direction, surface.shape, side < 0.0);
-    precise Normals normals = Normals(facing, facing);
-    if (HAS_SHADING) normals.shading = side * (HAS_NORMAL_MAP ? bent_normal(self.path.ray, surface) : surface.normal);
-    uint beyond = self.path.counts;
-    if (is_medium(material)) {
-        beyond = counts_beyond(self.path.counts, material.details, side > 0.0);
-        vertex.eta = ior_of_medium(self.path.counts) / ior_of_medium(beyond);
-    }
-    precise vec3 behind = HAS_ATTENUATION ? absorption_behind(self.path, material, side > 0.0) : vec3(0.0);
+    precise Meeting at = meet(self.path, surface, material, false);
     if (!is_delta(material)) {
-        if (self.path.depth == 0) self.kappa = kappa_of(self.light, vertex, ray, -direction, hit.distance);
-        link_to_camera(self, vertex, normals, ray, behind, by_spheres, rng);
+        if (self.path.depth == 0) self.kappa = kappa_of(self.light, at, hit.distance);
+        link_to_camera(self, at, by_spheres, rng);
     }
-    precise Scattering next = scatter_particle(vertex, normals, rng);
-    record_scattering(vertex.frame[2], next.direction, next.pdf, next.crosses);
-    turn_particle(self, vertex, normals, next);
+    precise Scattering next = scatter_particle(at.vertex, at.normals, rng);
+    record_scattering(at.vertex.frame[2], next.direction, next.pdf, next.crosses);
+    turn_particle(self, at.vertex, at.normals, next);
     if (self.path.throughput == vec3(0.0)) return false;
     if (ROULETTE && ends_at_random(self.path.throughput, KEEP, rng)) return false;
-    ray.direction = next.direction;
-    ray.inward = (side < 0.0) != next.crosses;
-    self.path.ray = ray;
-    if (HAS_ATTENUATION && next.crosses) self.path.absorption = behind;
-    if (HAS_NESTED && next.crosses) self.path.counts = beyond;
-    self.path.depth += 1;
+    leave(self.path, at, next);
     return true;
 }
 

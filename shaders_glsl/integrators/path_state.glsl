@@ -1,4 +1,23 @@
-// What is known of a path on its way.
+// A path on its way: what every path has, and what single features know of it.
+
+// Holes that the present segment has passed.
+struct Passed {
+    uint holes;
+    Ray start;  // the segment, where it left the vertex
+    float way;  // from there to the last hole
+};
+
+// Particles that carry the same light as the path (integrators/particle_weights.glsl).
+struct Rivals {
+    float rho;    // what they are weighed against; 0: none come
+    Chain chain;  // of smooth spheres that the path met first
+};
+
+// Probes, in place of the rest of the path.
+struct Asking {
+    bool is_due;   // whether the next matte surface asks them
+    bool is_done;  // whether they were asked: the next segment is the last
+};
 
 struct Path {
     Ray ray;          // its next segment
@@ -10,22 +29,19 @@ struct Path {
     int depth;        // scattering events so far
     vec3 absorption;  // of the glass that its next segment lies in
     uint counts;      // of the glasses with a priority there
-    uint holes;       // that this segment has passed
-    Ray start;        // it, where it left the vertex, if it has
-    float way;        // from there to the last hole
-    float rho;        // what particles are weighed against (integrators/particle_weights.glsl); 0: they do not come
-    Chain chain;      // of what it met first
-    bool asks_probes; // whether the next matte surface does
-    bool is_last;     // whether its next segment is its last, for light beyond it is that of probes
+    Passed passed;
+    Rivals rivals;
+    Asking asking;
     vec3 layers[MOST_LAYERS];  // the radiance by layers
 };
 
 Path start_path(Ray ray) {
     precise vec3 absorption = HAS_ATTENUATION ? frame.camera_absorption : vec3(0.0);
     uint counts = HAS_NESTED ? frame.camera_counts : 0u;
-    bool asks_probes = !FINAL_GATHER || FROM_PROBES;
-    return Path(ray, vec3(1.0), 1.0, vec3(0.0), 0.0, 0.0, 0, absorption, counts, 0u, ray, 0.0, 0.0, start_chain(ray),
-                asks_probes, false, NO_LAYERS);
+    precise Passed passed = Passed(0u, ray, 0.0);
+    precise Rivals rivals = Rivals(0.0, start_chain(ray));
+    Asking asking = Asking(!FINAL_GATHER || FROM_PROBES, false);
+    return Path(ray, vec3(1.0), 1.0, vec3(0.0), 0.0, 0.0, 0, absorption, counts, passed, rivals, asking, NO_LAYERS);
 }
 
 // Light of a lamp that is `length` scattering events from the camera; `group` is its layer. What a probe sees shine

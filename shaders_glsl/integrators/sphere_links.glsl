@@ -244,6 +244,7 @@ bool is_linked(int shape) { return shape < sphere_count() && shape < 31 && (LINK
 
 // After scattering. `is_outside`: whether it was met from outside.
 void follow_chain(precise inout Chain chain, int shape, Vertex vertex, bool crosses) {
+    if (LINKED == 0) return;
     int before = chain.state;
     chain.state = BROKEN;
     if (!is_delta(vertex.material)) return;

@@ -26,4 +26,4 @@ void record_shadow() {}
 void record_link(float pdf, float other_pdf, float weight) {}
 void record_sample(vec3 direction, float distance) {}
 void record_light(int strategy, int object, float pdf, vec3 radiance, vec3 added) {}
-bool goes_on(int reason) { return false; }
+void record_end(int reason) {}

@@ -96,9 +96,9 @@ ProbeLight light_of_probes(vec3 position, vec3 normal, vec3 wo) {
 // that finds its direct light. Beyond the grid, and where no probe is of use, paths go on; those of a final gather
 // also where they meet the first matte surface.
 void gather_from_probes(precise inout Path path, Vertex vertex, vec3 position, precise inout Sampler rng) {
-    if (vertex.material.kind != MATTE || path.depth + 2 > frame.bounces) return;
-    if (!path.asks_probes) {
-        path.asks_probes = true;
+    if (!HAS_PROBES || vertex.material.kind != MATTE || path.depth + 2 > frame.bounces) return;
+    if (!path.asking.is_due) {
+        path.asking.is_due = true;
         return;
     }
     precise float share = share_of_probes(position);
@@ -110,5 +110,5 @@ void gather_from_probes(precise inout Path path, Vertex vertex, vec3 position, p
     if (found.weight == 0.0) return;
     precise vec3 weight = path.scale * path.throughput * vertex.material.color / PI;
     gather(path, weight * found.irradiance, 0, path.depth + 2);
-    path.is_last = true;
+    path.asking.is_done = true;
 }

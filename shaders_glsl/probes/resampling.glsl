@@ -81,18 +81,21 @@ Source source_met(Path path, Surface surface) {
     return Source(surface.position, normal, vec3(0.0), surface.shape);
 }
 
-// Whether what it emits is a candidate; `share`: what points on lamps leave of it. Else the path gathers it.
-bool offers_met(Path path, Surface surface, vec3 emission, float share) {
-    if (!RESAMPLES_LAMPS || resampling.stage != SCATTERED || emission == vec3(0.0)) return false;
+// Whether the emission of a surface that is met is a candidate. Else the path gathers it.
+bool is_candidate(vec3 emission) {
+    return RESAMPLES_LAMPS && resampling.stage == SCATTERED && emission != vec3(0.0);
+}
+
+// `share`: the weight of the emission against points sampled on lamps.
+void offer_met(Path path, Surface surface, vec3 emission, float share) {
     precise Source source = source_met(path, surface);
     source.light = emission;
     offer_source(source, share * luminance(emission) * PI);
-    return true;
 }
 
 // From a second matte surface on, the path gathers the light of that.
 void meet_second(precise inout Path path, Surface surface, Material material) {
-    if (resampling.stage != SCATTERED) return;
+    if (!RESAMPLES || resampling.stage != SCATTERED) return;
     resampling.stage = GATHERS_ALONE;
     if (material.kind != MATTE || path.depth == frame.bounces) return;
     resampling.stage = BEYOND_SECOND;

@@ -1,0 +1,80 @@
+// A path, from the camera or from a lamp, that meets a surface: what it needs to scatter there, and how it goes on.
+
+struct Meeting {
+    Vertex vertex;
+    Normals normals;  // on the side that the path comes from
+    Ray ray;          // leaves the surface, still in the direction of the path
+    vec3 behind;      // absorption per unit length on the other side
+    uint beyond;      // counts of the glasses with a priority there
+};
+
+// The material of this sample: a principled surface with transmission is glass in part.
+Material part_met(Material material, precise inout Sampler rng) {
+    if (!HAS_TRANSMISSION || material.kind != PRINCIPLED) return material;
+    precise Material part = met_part(material, next_1d(rng));
+    return part;
+}
+
+// Absorption behind a surface; `enters`: whether that is its inside.
+vec3 absorption_behind(Path path, Material material, bool enters) {
+    if (!HAS_ATTENUATION) return vec3(0.0);
+    if (is_medium(material)) {
+        uint counts = counts_beyond(path.counts, material.details, enters);
+        return absorption_of_glass(medium_of(counts));
+    }
+    if (material.kind != DIELECTRIC) return path.absorption;
+    return enters ? absorption_of_glass(material.details) : vec3(0.0);
+}
+
+// `by_shading`: the path scatters around the normal for shading, where that is possible; else around the true one.
+Meeting meet(Path path, Surface surface, Material material, bool by_shading) {
+    precise vec3 direction = path.ray.direction;
+    precise vec3 facing = true_normal(surface);
+    precise float side = dot(direction, facing) < 0.0 ? 1.0 : -1.0;  // 1: outer
+    facing *= side;
+    precise vec3 shading = side * (HAS_NORMAL_MAP ? bent_normal(path.ray, surface) : surface.normal);
+    precise mat3 frame = by_shading ? shading_frame(facing, shading, direction) : frame_around(facing);
+    precise Vertex vertex = vertex_of(frame, to_local(frame, -direction), material, side > 0.0);
+    uint beyond = path.counts;
+    if (is_medium(material)) {
+        beyond = counts_beyond(path.counts, material.details, side > 0.0);
+        vertex.eta = ior_of_medium(path.counts) / ior_of_medium(beyond);
+    }
+    precise vec3 behind = absorption_behind(path, material, side > 0.0);
+    precise Ray ray = Ray(surface.position, direction, surface.shape, side < 0.0);
+    return Meeting(vertex, Normals(facing, shading), ray, behind, beyond);
+}
+
+// The path leaves the surface as it was scattered.
+void leave(precise inout Path path, Meeting at, Scattering next) {
+    precise Ray ray = at.ray;
+    ray.direction = next.direction;
+    ray.inward = ray.inward != next.crosses;
+    path.ray = ray;
+    if (HAS_ATTENUATION && next.crosses) path.absorption = at.behind;
+    if (HAS_NESTED && next.crosses) path.counts = at.beyond;
+    path.depth += 1;
+}
+
+// Light that a segment of this length loses. A segment that meets glass from inside lay in that glass.
+void absorb(precise inout Path path, Material material, bool is_inside, float distance) {
+    if (!HAS_ATTENUATION) return;
+    bool is_glass = material.kind == DIELECTRIC && !is_medium(material);
+    if (is_glass && is_inside) path.absorption = absorption_of_glass(material.details);
+    path.throughput *= share_left(path.absorption, distance);
+}
+
+// Whether a surface of glass lies in another glass that stays around the path: nothing happens there.
+bool is_within_other_glass(Path path, Material material, bool enters) {
+    if (!is_medium(material)) return false;
+    uint beyond = counts_beyond(path.counts, material.details, enters);
+    return medium_of(beyond) == medium_of(path.counts);
+}
+
+// The path goes on through such a surface. No light that was sampled has passed it.
+void pass_glass(precise inout Path path, Surface surface, Material material, bool enters) {
+    record_passing(EVENT_PASSED_GLASS);
+    path.counts = counts_beyond(path.counts, material.details, enters);
+    path.ray = Ray(surface.position, path.ray.direction, surface.shape, enters);
+    path.pdf = 0.0;
+}
