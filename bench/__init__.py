@@ -1,5 +1,8 @@
 """Measurements of speed, memory and noise of glrt and of other renderers. Not part of the wheel.
 
+Studies that are finished, and makers of single pictures in docs, are in the history of the
+repository, up to commit f3b2481.
+
 Programs, `python -m bench.NAME`; `--help` lists their options:
 
 - against: whether this checkout is slower than another commit
@@ -7,39 +10,21 @@ Programs, `python -m bench.NAME`; `--help` lists their options:
 - scenes: random scenes by seed, as files
 - kernels: the speed of the kernel and of its variants
 - efficiency: variance and time with one setting of a render changed at a time
-- steps: variance and time of each step from plain light sampling to the defaults
-- many_lamps: variance and time with lamps chosen by distance, for many lamps
 - shape_counts: the speed-up by a tree over shapes, by their number
 - mesh_sizes: speed and memory by the number of triangles
-- repeated_meshes: speed and memory of meshes that are used many times, kept once or as often
-- node_visits: the number of nodes of the tree that a ray visits
 - roofline: the speed of the kernel relative to the peak of the machine
-- dispatches: the longest dispatch of a render
-- aovs: what AOVs cost
-- texture_costs: what images on surfaces cost
-- aov_sheet: the picture of docs/how-to/aovs.md
 - memory: the memory of a render, by its uses
 - rivals: time to an error of 2 %, against other renderers
 - unseen: the lead over Mitsuba on scenes drawn from a hash of the program
 - doubt: how often the judgement on an estimated error is wrong, on new scenes
 - denoised: what a denoiser gains, and whether it knows its error
-- denoised_sheet: the picture of docs/explanation/denoising.md
-- probe_floors: what methods with probes miss at any number of samples, and their noise
-- probe_sheet: the picture of balls in docs/explanation/probes.md
-- reuse: what reuse of points takes from the noise of method `resampled`, and its price
-- particle_checks: pictures with particles against those without, and their errors
 - calibration: the estimated error of pictures against their true error
 - error_ratios: the same where few samples find light, and in ordinary scenes
 - false_alarms: the rates of false alarms and of detections of `glrt compare`
-- methods_compared: its false alarms between different methods
-- changes_found: whether it finds changes of the size that it says it would have found
 - window_tour: frame times of the window, driven by a script
-- window_films: animations of the window for the documentation
 - drags: whether the picture in the window follows a drag
 - redraw: how much clearer the picture is while the camera moves
-- studio: principled balls under a studio map of a package
 - gallery: every scene that comes with glrt, as pictures and a page of them
-- real_models: pictures of models that packages carry
 - weekend: writes scenes/weekend.toml
 
 What they share:

@@ -17,8 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bench.doubt import HALF_SEEDS, SIZE
-from bench.fooling_scenes import KINDS, fooling_scene
-from bench.methods_compared import metal_balls
+from bench.fooling_scenes import KINDS, fooling_scene, metal_balls
 from bench.program import at_least, exit_code_of, machine, parser_of
 from glrt.analysis.stress.noisy_scenes import CASES
 from glrt.error.estimate import DARK, estimated_error, relative_error

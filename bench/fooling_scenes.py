@@ -19,6 +19,35 @@ FLOOR = {"shape": "plane", "point": [0, 0, 0], "normal": [0, 1, 0], "material": 
 SUN_POWER = 20.0  # emission of a sun times the square of its radius
 
 
+def metal_balls(roughest: float) -> Scene:
+    """Four metal balls, of roughness 0.1 to `roughest`, on a matte floor under two quad lamps."""
+    balls = {f"metal {k}": 0.1 + k / 3 * (roughest - 0.1) for k in range(4)}
+    metals = {
+        name: {"type": "metal", "color": [0.9, 0.85, 0.8], "roughness": roughness}
+        for name, roughness in balls.items()
+    }
+    lamp = {"shape": "quad", "edge_u": [0.5, 0, 0], "edge_v": [0, 0, 0.5], "material": "lamp"}
+    return parse_scene(
+        {
+            "camera": {"position": [0.0, 1.6, 4.5], "look_at": [0.0, 0.4, 0.0], "fov": 40.0},
+            "materials": {
+                "floor": {"type": "lambertian", "color": [0.7, 0.7, 0.7]},
+                "lamp": {"type": "light", "emission": [12.0, 12.0, 12.0]},
+                **metals,
+            },
+            "objects": [
+                {"shape": "plane", "point": [0, 0, 0], "normal": [0, 1, 0], "material": "floor"},
+                *(
+                    {"shape": "sphere", "center": [k - 1.5, 0.45, 0], "radius": 0.45, "material": m}
+                    for k, m in enumerate(balls)
+                ),
+                *({**lamp, "corner": [left, 2.5, -0.3]} for left in (-1.2, 0.8)),
+            ],
+        },
+        "metal balls",
+    )
+
+
 def _scene(kind: str, dice: Dice, materials: Table, objects: list[Table]) -> Scene:
     """With a floor, sometimes a wall, and a sky that is sometimes black."""
     grey = dice.within(0.3, 0.8)

@@ -9,19 +9,23 @@ import json
 import statistics
 import sys
 import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+from unittest.mock import patch
 
 import numpy as np
 
 from bench.against_side import peak_bytes
-from bench.dispatches import longest
 from glrt.gpu.context import Context, Pipeline, open_context, open_device
 from glrt.image.image import Pixels
 from glrt.image.sources import load
 from glrt.rendering.pipelines import Tier
 from glrt.rendering.renderer import Renderer
+from glrt.rendering.schedule import DispatchPolicy
+from glrt.rendering.tracer import Tracer
 
 SEEDS = 1, 2  # of the pictures; the first one is also the warm-up
 
@@ -38,6 +42,28 @@ class Work:
     size: int  # pixels a side
     samples: int  # per pixel
     seconds: float  # the last picture is repeated until this time has passed
+
+
+def longest(work: Callable[[], object]) -> float:
+    """Seconds of the longest dispatch of a tracer while `work` runs."""
+    with _timed() as seconds:
+        work()
+    return max(seconds)
+
+
+@contextmanager
+def _timed() -> Iterator[list[float]]:
+    """Seconds of every dispatch of a tracer, appended while the context lasts."""
+    seconds: list[float] = []
+    work_on = Tracer.work_on
+
+    def timed(tracer: Tracer, remaining: int, policy: DispatchPolicy, seconds_left: float) -> None:
+        start = time.perf_counter()
+        work_on(tracer, remaining, policy, seconds_left)
+        seconds.append(time.perf_counter() - start)
+
+    with patch.object(Tracer, "work_on", timed):
+        yield seconds
 
 
 def measure(work: Work, pictures: Path) -> dict[str, Any]:

@@ -4,9 +4,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from PIL import Image as Pillow
 
-from bench import denoised, denoised_sheet
+from bench import denoised
 from bench.denoised import Found, blocks_of, certain, judged, pictures, report
 from bench.truth import Truth, truth_of
 from glrt.denoise.denoising import Denoised
@@ -68,19 +67,6 @@ def test_a_small_run_is_reported(tmp_path: Path, capsys: pytest.CaptureFixture[s
     assert [file.name for file in tmp_path.iterdir()] == ["sky-16-64-caustics-off.npz"]
     assert denoised.main([*words, "--truths", str(tmp_path)]) == 0
     assert capsys.readouterr().out == told
-
-
-@pytest.mark.slow
-def test_the_sheet_has_three_pictures_of_each_scene(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(denoised_sheet, "SIZE", 32)
-    monkeypatch.setattr(denoised_sheet, "SCENES", ("cornell", "cornell"))
-    file = tmp_path / "sheet.png"
-    assert denoised_sheet.main(["-o", str(file)]) == 0
-    sheet = np.asarray(Pillow.open(file).convert("RGB")).astype(int)
-    cells = [cell for row in np.array_split(sheet, 2) for cell in np.array_split(row, 3, axis=1)]
-    assert all(cell.std() > 5 for cell in cells)
 
 
 @pytest.mark.slow

@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from bench.fooling_scenes import fooling_scene
-from bench.methods_compared import metal_balls
+from bench.fooling_scenes import fooling_scene, metal_balls
 from glrt.analysis.stress.noisy_scenes import CASES, room
 from glrt.cli.warnings import doubt
 from glrt.error import reliability
