@@ -19,10 +19,10 @@ from numpy.typing import NDArray
 from bench.doubt import HALF_SEEDS, SIZE
 from bench.fooling_scenes import KINDS, fooling_scene, metal_balls
 from bench.program import at_least, exit_code_of, machine, parser_of
-from glrt.analysis.stress.noisy_scenes import CASES
 from glrt.error.estimate import DARK, estimated_error, relative_error
 from glrt.gpu.context import Context, open_context
 from glrt.image.sources import load
+from glrt.lab.noisy_scenes import CASES
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 from glrt.settings import Method, Sampler

@@ -16,12 +16,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bench.program import add_tables, exit_code_of, machine, parser_of
-from glrt.analysis.stress.noisy_scenes import CASES, FOUND, OTHERS, PLANTED, SOBOL, Case
 from glrt.comparison.result import Comparison, percent
 from glrt.comparison.verdict import compare
 from glrt.gpu.context import Context, open_context
 from glrt.image.image import Image
 from glrt.image.recipe import Recipe
+from glrt.lab.noisy_scenes import CASES, FOUND, OTHERS, PLANTED, SOBOL, Case
 from glrt.rendering.renderer import Renderer
 
 Floats = NDArray[np.float32]

@@ -18,7 +18,8 @@ Modules and packages, each importing only what stands above it:
 - comparison: whether two pictures differ by more than their noise
 - rendering: render a scene with settings: samples on a film
 - doctor: which OpenGL routes work on a machine
-- analysis: experiments with the renderer: chart, stress, choice of a method
+- analysis: experiments with the renderer: chart, choice of a method
+- lab: scenes on which methods fail, for `glrt stress`
 - view: the window
 - api: public functions that no other module defines
 - cli: the commands

@@ -9,5 +9,4 @@ Modules, each importing only what stands above it:
 - chart: error against time for every method
 - motion: what is on the screen while something moves, and its error
 - method_choice: the cheapest method that reaches an error
-- stress: parameter sweeps up to where methods fail
 """

@@ -8,14 +8,14 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from glrt.analysis.plot import check_matplotlib
-from glrt.analysis.stress import report
-from glrt.analysis.stress.cases import CASES
-from glrt.analysis.stress.sweep import Case, Finding, Lab
 from glrt.cli.options import add_context
 from glrt.core import files
 from glrt.core.errors import UsageError
 from glrt.core.text import nearest, quoted
 from glrt.gpu.context import open_context
+from glrt.lab import report
+from glrt.lab.cases import CASES
+from glrt.lab.sweep import Case, Finding, Lab
 
 DESCRIPTION = (
     "Vary one parameter after the other to where path tracers fail, and compare glrt with a "

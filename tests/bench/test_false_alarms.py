@@ -10,8 +10,8 @@ import pytest
 
 from bench import false_alarms
 from bench.false_alarms import Pool, compared, gather, main, wilson
-from glrt.analysis.stress.noisy_scenes import CASES, OTHERS
 from glrt.gpu.context import Context
+from glrt.lab.noisy_scenes import CASES, OTHERS
 from tests.support.noisy_images import alarms_allowed
 
 

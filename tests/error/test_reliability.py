@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 
 from bench.fooling_scenes import fooling_scene, metal_balls
-from glrt.analysis.stress.noisy_scenes import CASES, room
 from glrt.cli.warnings import doubt
 from glrt.error import reliability
 from glrt.error.estimate import relative_error
@@ -19,6 +18,7 @@ from glrt.error.reliability import LEAST_OBSERVATIONS, is_doubtful
 from glrt.gpu.context import Context
 from glrt.image.image import Image
 from glrt.image.sources import load
+from glrt.lab.noisy_scenes import CASES, room
 from glrt.scene.scene import Scene
 from glrt.scene.scenefile.toml_writer import write_scene
 from tests.support.noisy_images import KINDS, flat, noisy

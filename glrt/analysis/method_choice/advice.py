@@ -210,7 +210,7 @@ def _finding(verdict: Verdict, least_samples: int) -> str:
             )
         return (
             f"No method is known to reach {percent(verdict.error)}: the measurement, of some "
-            "seconds, is too noisy to tell. Ask for a larger error."
+            "seconds, is too noisy to decide. Ask for a larger error."
         )
     settings, (width, height) = best.settings, best.settings.size
     samples = max(best.samples_to(verdict.error) or 0, least_samples)

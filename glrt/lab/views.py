@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from glrt.analysis.stress.rays import TEXTBOOK
-from glrt.analysis.stress.scenes import matte, scene_of, sphere
-from glrt.analysis.stress.sweep import Array, Lab, Sweep
+from glrt.lab.rays import TEXTBOOK
+from glrt.lab.scenes import matte, scene_of, sphere
+from glrt.lab.sweep import Array, Lab, Sweep
 from glrt.packing.scene_arrays import pack_camera
 from glrt.scene.scene import Scene
 

@@ -5,9 +5,9 @@ from typing import Any
 
 import numpy as np
 
-from glrt.analysis.stress.scenes import lamp, plane, quad, scene_of
-from glrt.analysis.stress.sweep import SIGMAS, Lab, Sweep, mean_of
 from glrt.gpu.glsl import read
+from glrt.lab.scenes import lamp, plane, quad, scene_of
+from glrt.lab.sweep import SIGMAS, Lab, Sweep, mean_of
 from glrt.rendering.pipelines import Variant
 from glrt.scene.materials.base import Opaque
 from glrt.scene.scene import Scene

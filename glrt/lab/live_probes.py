@@ -6,8 +6,8 @@ import numpy as np
 
 from glrt.analysis.motion.playing import play
 from glrt.analysis.motion.sequences import light_step
-from glrt.analysis.stress.scenes import Table, lamp, matte, quad, scene_of, sphere
-from glrt.analysis.stress.sweep import Lab, Sweep, mean_of
+from glrt.lab.scenes import Table, lamp, matte, quad, scene_of, sphere
+from glrt.lab.sweep import Lab, Sweep, mean_of
 from glrt.rendering.history.temporal import Way
 from glrt.rendering.probe_supply import HYSTERESIS
 from glrt.scene.scene import Scene

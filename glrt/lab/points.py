@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from glrt.analysis.stress.sweep import Lab, Sweep
+from glrt.lab.sweep import Lab, Sweep
 from glrt.settings import BLOCKS
 
 SAMPLES = BLOCKS["sobol64"]

@@ -4,9 +4,9 @@ from typing import Any
 
 import numpy as np
 
-from glrt.analysis.stress.rough_glass import lattice
-from glrt.analysis.stress.scenes import scene_of, sphere
-from glrt.analysis.stress.sweep import Lab, Sweep
+from glrt.lab.rough_glass import lattice
+from glrt.lab.scenes import scene_of, sphere
+from glrt.lab.sweep import Lab, Sweep
 
 ROUGHNESS = 0.3
 _SAMPLE = """

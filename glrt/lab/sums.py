@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from glrt.analysis.stress.scenes import lamp, plane, scene_of
-from glrt.analysis.stress.sweep import SIGMAS, Array, Lab, Sweep
+from glrt.lab.scenes import lamp, plane, scene_of
+from glrt.lab.sweep import SIGMAS, Array, Lab, Sweep
 
 PORTION = 1 << 15  # samples per dispatch, below the loop limit of software drivers
 DARK, BRIGHT, SHARE = 0.1, 0.9, 0.3  # samples of a pixel on an edge, and the share of bright ones

@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from glrt.analysis.stress.noisy_scenes import CASES, room
-from glrt.analysis.stress.noisy_scenes import Case as NoisyCase
-from glrt.analysis.stress.scenes import glass, lamp, matte, scene_of, sphere
-from glrt.analysis.stress.sweep import SIGMAS, Array, Lab, Sweep, mean_of
 from glrt.error.estimate import relative_error
 from glrt.image.image import Image
+from glrt.lab.noisy_scenes import CASES, room
+from glrt.lab.noisy_scenes import Case as NoisyCase
+from glrt.lab.scenes import glass, lamp, matte, scene_of, sphere
+from glrt.lab.sweep import SIGMAS, Array, Lab, Sweep, mean_of
 from glrt.scene.scene import Scene
 
 TEXTBOOK = """

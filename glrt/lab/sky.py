@@ -5,8 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from glrt.analysis.stress.scenes import matte, plane, scene_of
-from glrt.analysis.stress.sweep import SIGMAS, Array, Lab, Sweep, mean_of
+from glrt.lab.scenes import matte, plane, scene_of
+from glrt.lab.sweep import SIGMAS, Array, Lab, Sweep, mean_of
 from glrt.scene.files.named_images import ImageFile, Pixels
 from glrt.scene.scene import Scene
 

@@ -10,14 +10,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from glrt.analysis.stress import report
-from glrt.analysis.stress.cases import CASES
-from glrt.analysis.stress.sweep import Case, Finding, Lab, Sweep
 from glrt.cli import stress
 from glrt.cli.main import main
 from glrt.core.resources import folder
 from glrt.gpu import glsl
 from glrt.gpu.context import Context
+from glrt.lab import report
+from glrt.lab.cases import CASES
+from glrt.lab.sweep import Case, Finding, Lab, Sweep
 from tests.support.alarms import book
 
 TINY = 1 / 64

@@ -11,8 +11,8 @@ import numpy as np
 from glrt.analysis.motion.playing import Picture, play
 from glrt.analysis.motion.sequences import Sequence as Frames
 from glrt.analysis.motion.sequences import with_camera
-from glrt.analysis.stress.scenes import glass, lamp, matte, plane, quad, scene_of, sphere
-from glrt.analysis.stress.sweep import Lab, Sweep
+from glrt.lab.scenes import glass, lamp, matte, plane, quad, scene_of, sphere
+from glrt.lab.sweep import Lab, Sweep
 from glrt.rendering.history.temporal import WAYS, Way
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for

@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import Any
 
 from glrt.analysis.plot import save_chart, save_sheet
-from glrt.analysis.stress.sweep import Finding
 from glrt.core import files
 from glrt.core.version import VERSION
+from glrt.lab.sweep import Finding
 
 TABLE, FIGURES, OVERVIEW = "stress.md", "stress.csv", "overview.png"
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from glrt.analysis.stress.sweep import Array, Lab, Sweep
+from glrt.lab.sweep import Array, Lab, Sweep
 
 RAY = "Ray(origin, direction, NO_SHAPE, false)"
 TEXTBOOK = """

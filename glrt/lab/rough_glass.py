@@ -5,8 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from glrt.analysis.stress.scenes import glass, lamp, matte, scene_of, sphere
-from glrt.analysis.stress.sweep import SIGMAS, Array, Lab, Sweep, mean_of
+from glrt.lab.scenes import glass, lamp, matte, scene_of, sphere
+from glrt.lab.sweep import SIGMAS, Array, Lab, Sweep, mean_of
 from glrt.scene.scene import Scene
 
 INDEX = 1.5

@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from glrt.analysis.stress.scenes import lamp as emitter
-from glrt.analysis.stress.scenes import matte, plane, quad, scene_of
-from glrt.analysis.stress.sweep import SIGMAS, Array, Lab, Sweep, mean_of
+from glrt.lab.scenes import lamp as emitter
+from glrt.lab.scenes import matte, plane, quad, scene_of
+from glrt.lab.sweep import SIGMAS, Array, Lab, Sweep, mean_of
 from glrt.rendering.pipelines import PLAIN, Variant
 from glrt.scene.scene import Scene
 from glrt.scene.shapes.quad import Quad
@@ -152,7 +152,7 @@ def ceiling(lab: Lab) -> Sweep:
     first, *others = errors.items()
     return Sweep(
         parameter="gap to the ceiling, in widths of the lamp",
-        measure=f"relative error beside the lamp\nafter {1024 * samples:,} samples",
+        measure=f"relative error next to the lamp\nafter {1024 * samples:,} samples",
         x=x,
         chosen=first,
         others=dict(others),

@@ -4,8 +4,8 @@ from typing import Any
 
 import numpy as np
 
-from glrt.analysis.stress.scenes import Table, lamp, matte, quad, scene_of, sphere
-from glrt.analysis.stress.sweep import Array, Lab, Sweep, mean_of
+from glrt.lab.scenes import Table, lamp, matte, quad, scene_of, sphere
+from glrt.lab.sweep import Array, Lab, Sweep, mean_of
 from glrt.rendering.pipelines import PLAIN, Variant
 from glrt.scene.scene import Scene
 

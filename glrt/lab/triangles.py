@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from glrt.analysis.stress.scenes import Table, matte, scene_of
-from glrt.analysis.stress.sweep import Array, Lab, Sweep
+from glrt.lab.scenes import Table, matte, scene_of
+from glrt.lab.sweep import Array, Lab, Sweep
 from glrt.scene.files.named_meshes import MeshFile, mesh_of_arrays
 from glrt.scene.scene import Scene
 

@@ -5,9 +5,9 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
-from glrt.analysis.stress.scenes import glass, lamp, matte, plane, scene_of, sphere
-from glrt.analysis.stress.sweep import Lab, Sweep
 from glrt.error.estimate import relative_error
+from glrt.lab.scenes import glass, lamp, matte, plane, scene_of, sphere
+from glrt.lab.sweep import Lab, Sweep
 from glrt.scene.scene import Scene
 
 RADII = (0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3)

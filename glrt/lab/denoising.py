@@ -7,8 +7,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from glrt.analysis.stress.scenes import Table, glass, lamp, matte, plane, quad, scene_of, sphere
-from glrt.analysis.stress.sweep import SIGMAS, Lab, Sweep
 from glrt.denoise.blend import blended
 from glrt.denoise.denoising import denoise
 from glrt.denoise.filters import FILTERS, Filtered
@@ -16,6 +14,8 @@ from glrt.denoise.half import Guide, Half, Pixels
 from glrt.denoise.risk import squared_error, summed
 from glrt.denoise.windows import window_mean
 from glrt.image.halves import halves_of
+from glrt.lab.scenes import Table, glass, lamp, matte, plane, quad, scene_of, sphere
+from glrt.lab.sweep import SIGMAS, Lab, Sweep
 from glrt.scene.scene import Scene
 from glrt.settings import GUIDES
 

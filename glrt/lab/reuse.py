@@ -2,8 +2,8 @@
 
 from typing import Any
 
-from glrt.analysis.stress.scenes import lamp, matte, quad, scene_of
-from glrt.analysis.stress.sweep import Lab, Sweep, mean_of
+from glrt.lab.scenes import lamp, matte, quad, scene_of
+from glrt.lab.sweep import Lab, Sweep, mean_of
 from glrt.scene.scene import Scene
 
 HEIGHTS = (0.01, 0.03, 0.1, 0.3, 0.9)  # heights of slats

@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 
-from glrt.analysis.stress.lamps import CHOSEN, EVENLY, RECEIVED, tolerance
-from glrt.analysis.stress.scenes import Table, matte, plane, scene_of, sphere
-from glrt.analysis.stress.sweep import Array, Lab, Sweep
+from glrt.lab.lamps import CHOSEN, EVENLY, RECEIVED, tolerance
+from glrt.lab.scenes import Table, matte, plane, scene_of, sphere
+from glrt.lab.sweep import Array, Lab, Sweep
 from glrt.scene.lights.cone import Cone
 from glrt.scene.scene import Scene
 

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from glrt.analysis.stress.sweep import Array, Lab, Sweep
 from glrt.gpu.evaluate import Probe
+from glrt.lab.sweep import Array, Lab, Sweep
 
 PORTION = 1 << 11  # frames per dispatch, below the loop limit of software drivers
 STATE = 9  # rows of a pixel

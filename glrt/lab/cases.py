@@ -1,6 +1,6 @@
 """Every case of `glrt stress`, by name."""
 
-from glrt.analysis.stress import (
+from glrt.lab import (
     denoising,
     glass,
     history,
@@ -21,7 +21,7 @@ from glrt.analysis.stress import (
     triangles,
     views,
 )
-from glrt.analysis.stress.sweep import Case
+from glrt.lab.sweep import Case
 
 _ALL = (
     Case("distance", "A distant sphere", rays.distance),
