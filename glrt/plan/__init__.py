@@ -7,6 +7,8 @@ Modules, each importing only what stands above it:
 - facts: facts that follow from a scene: counts, lamps, glasses, BVHs
 - lamp_sides: share of particles from each side of a lamp
 - probe_grid: positions of probes
+- case: a scene with its settings
+- reasons: why a feature is compiled in or left out, in words
 - features: features compiled into a kernel
 - plan: the plan of a render: features and light layers
 - explanation: why each feature is compiled in

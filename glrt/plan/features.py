@@ -1,14 +1,18 @@
-"""The features that a kernel needs for a scene and its settings, and no others."""
+"""The features that a kernel needs for a scene and its settings, and no others.
 
-from collections.abc import Sequence
-from dataclasses import dataclass, fields
-from typing import Any
+Each is a field of `Needs`, which says when a kernel has it and why.
+"""
 
-from glrt.plan.facts import SceneFacts
-from glrt.plan.methods import METHODS, SPATIAL, TEMPORAL, reuses_points
+from collections.abc import Callable
+from dataclasses import dataclass, field, fields
+from typing import Any, NamedTuple
+
+from glrt.plan import reasons
+from glrt.plan.case import Case
+from glrt.plan.facts import MESH, MOST_NEAR, SceneFacts
+from glrt.plan.methods import SPATIAL, TEMPORAL
+from glrt.plan.reasons import Reason, made_of, textured
 from glrt.scene.materials.kinds import TYPES
-from glrt.scene.materials.metal import Metal
-from glrt.scene.scene import Scene
 from glrt.scene.shapes.kinds import KINDS, SAMPLED
 from glrt.settings import Settings
 
@@ -25,6 +29,56 @@ PLAIN_PROBES: dict[str, bool | int] = {
     "WITHOUT_VISIBILITY": False,  # ignores the visibility of probes: for experiments
     "WITHOUT_BIAS": False,
 }
+WITHOUT_OWN_FLAG = ("lambertian", "light", "metal")
+
+
+class Row(NamedTuple):
+    """A field of `Needs`."""
+
+    when: Callable[[Case], Any]  # its value
+    name: str  # for users; empty for what other rows explain
+    why: Reason
+    shown: Callable[["Needs"], bool] | None  # whether users see it as compiled in
+    most: bool | int  # its value in a kernel with every feature
+
+
+def _row(
+    when: Callable[[Case], Any],
+    name: str = "",
+    why: Reason = reasons.by_method,
+    shown: Callable[["Needs"], bool] | None = None,
+    most: bool | int = True,
+) -> Any:
+    return field(metadata={"row": Row(when, name, why, shown, most)})
+
+
+def _textured(name: str, *keys: str) -> Any:
+    """Return the row of textures of some material keys."""
+    return _row(lambda it: bool(it.facts.mapped & {*keys}), name, textured(*keys))
+
+
+def _made_of(kind: str, name: str, names: Callable[[SceneFacts], list[str]]) -> Any:
+    """Return the row of a kind of material, found by the names of such materials."""
+    return _row(lambda it: bool(names(it.facts)), name, made_of(kind, lambda it: names(it.facts)))
+
+
+def _followed(kind: str, name: str, names: Callable[[SceneFacts], list[str]]) -> Any:
+    """Return the row of a kind of glass that not every method follows."""
+
+    def when(case: Case) -> bool:
+        return case.traits.follows and bool(names(case.facts))
+
+    return _row(when, name, made_of(kind, lambda it: names(it.facts)))
+
+
+def _types(case: Case) -> frozenset[str]:
+    types = {it.type for it in case.facts.materials.values() if not it.is_transparent}
+    is_solid = case.traits.follows and case.facts.solid_glasses
+    return frozenset(types | ({"dielectric"} if is_solid else set()))
+
+
+def _in_clusters(case: Case) -> str:
+    return f"{reasons.lamps(case)}; from {MOST_NEAR + 1} on"
 
 
 @dataclass(frozen=True)
@@ -36,61 +90,167 @@ class Needs:
     Metal has two constants of its own, HAS_MIRROR and HAS_ROUGH_METAL.
     """
 
-    shapes: frozenset[str]
-    materials: frozenset[str]
-    lamps: frozenset[str]  # kinds that are sampled, or that light surfaces in the classic models
-    has_sphere_tree: bool
-    has_tree: bool  # a BVH over other shapes
-    has_instance: bool  # meshes with BVHs of their own
-    instance_bits: int
-    has_smooth: bool  # meshes whose normals are interpolated
-    has_vertex_color: bool  # meshes whose vertices have colours
-    has_map: bool  # textures
-    has_color_map: bool
-    has_emission_map: bool
-    has_gloss_map: bool  # textures of metallic or roughness
-    has_normal_map: bool
-    has_coverage_map: bool  # textures of alpha
-    has_transmission_map: bool
-    has_mirror: bool
-    has_rough_metal: bool
-    has_rough_glass: bool
-    has_pane: bool  # glass that is thin
-    has_attenuation: bool  # glass that absorbs light
-    has_nested: bool  # glasses that overlap by priority
-    media: int  # number of glasses with a priority
-    has_transmission: bool  # principled surfaces that are glass in part
-    has_hole: bool  # principled surfaces with holes
-    has_coat: bool  # principled surfaces under a clear coat
-    has_conductor: bool  # metal whose reflectance depends on the angle
-    has_lens: bool
-    has_cone: bool  # lamps that light a cone of directions
-    has_one_sided: bool  # lamps that emit from their front alone
-    has_coincident: bool  # flat lamps that share a place with other surfaces
-    has_background: bool
-    has_horizon: bool  # a background of two gradients
-    has_environment: bool  # a background given by an image
-    has_sun: bool
-    sample_sky: bool  # samples the image of the sky
-    sample_sun: bool
-    sample_lights: bool
-    weight_both: bool
-    quads_by_area: bool  # samples lamps evenly by area, not by solid angle
-    has_particles: bool  # particles from lamps, linked to the camera
-    casters: int  # spheres at which some particles are aimed: a bit for each
-    targets: int  # number of balls around other shapes at which some particles are aimed
-    linked: int  # smooth spheres through which some particles are linked: a bit for each
-    has_probes: bool  # indirect light from a grid of probes
-    final_gather: bool  # traces paths to one more matte surface before it reads probes
-    resamples: bool  # keeps one of the points that light the first matte surface
-    reuses_own: bool  # reuses the point that the previous sample kept for the pixel
-    reuses_near: int  # number of pixels around, whose kept points are reused
-    unbiased: bool  # checks which reused points other pixels could have found
-    roulette: bool
-    model: int  # number of a classic lighting model; 0: paths are traced
-    many_lights: bool  # more than MOST_NEAR lamps are sampled
-    clusters: int  # lamps weighed at each point, or clusters of many lamps
-    block: int  # samples in an observation: 16 or 64 of Sobol's points, 1 of independent numbers
+    shapes: frozenset[str] = _row(lambda it: frozenset(k for k, n in it.facts.shapes.items() if n))
+    has_sphere_tree: bool = _row(
+        lambda it: it.facts.has_sphere_tree, "tree of spheres", reasons.sphere_tree
+    )
+    has_tree: bool = _row(  # a BVH over other shapes
+        lambda it: bool(it.facts.tree_kinds),
+        "tree of shapes",
+        reasons.shape_tree,
+        shown=lambda needs: needs.has_tree or MESH in needs.shapes,
+    )
+    has_instance: bool = _row(lambda it: bool(it.facts.instances))  # meshes with own BVHs
+    instance_bits: int = _row(lambda it: it.facts.instance_bits, most=0)
+    has_smooth: bool = _row(lambda it: it.facts.is_smooth, "smooth normals", reasons.smooth)
+    has_vertex_color: bool = _row(lambda it: it.facts.is_colored, "vertex colours", reasons.colored)
+    has_map: bool = _row(lambda it: bool(it.facts.mapped))  # textures
+    has_color_map: bool = _textured("textured color", "color")
+    has_emission_map: bool = _textured("textured light", "emission")
+    has_gloss_map: bool = _textured("textured gloss", "metallic", "roughness")
+    has_normal_map: bool = _textured("normal maps", "normal")
+    has_coverage_map: bool = _textured("textured alpha", "alpha")
+    has_transmission_map: bool = _textured("textured transmission", "transmission")
+    has_hole: bool = _made_of("alpha below 1", "holes", lambda it: it.holed)
+    has_mirror: bool = _row(
+        lambda it: (
+            it.traits.follows
+            and any(metal.alpha == 0 or not it.traits.has_rough for metal in it.metals)
+        ),
+        "mirrors",
+        made_of("metal of roughness 0", reasons.metals(is_rough=False)),
+    )
+    has_rough_metal: bool = _row(
+        lambda it: it.traits.has_rough and any(metal.alpha > 0 for metal in it.metals),
+        "rough metal",
+        made_of("metal with roughness", reasons.metals(is_rough=True)),
+    )
+    has_conductor: bool = _made_of("measured metal", "conductors", lambda it: it.conductors)
+    materials: frozenset[str] = _row(_types)
+    has_transmission: bool = _made_of("glass in part", "transmission", lambda it: it.transmitting)
+    has_coat: bool = _made_of("principled with clearcoat", "coats", lambda it: it.coated)
+    has_rough_glass: bool = _row(
+        lambda it: it.traits.follows and it.traits.has_rough and bool(it.facts.rough_glasses),
+        "rough glass",
+        made_of("rough glass", lambda it: it.facts.rough_glasses),
+    )
+    has_pane: bool = _followed("thin glass", "panes", lambda it: it.panes)
+    has_attenuation: bool = _followed("tinted glass", "attenuation", lambda it: it.tinted)
+    has_nested: bool = _followed("glass with priority", "nested glass", lambda it: it.media)
+    media: int = _row(lambda it: len(it.facts.media) if it.traits.follows else 0, most=0)
+    has_lens: bool = _row(
+        lambda it: it.traits.has_lens and it.scene.camera.defocus_angle > 0, "lens", reasons.lens
+    )
+    has_cone: bool = _row(  # lamps that light a cone of directions
+        lambda it: bool(it.facts.cones), "cones", reasons.emitting("a cone", lambda it: it.cones)
+    )
+    has_one_sided: bool = _row(  # lamps that emit from their front alone
+        lambda it: bool(it.facts.one_sided),
+        "one-sided lamps",
+        reasons.emitting("one side", lambda it: it.one_sided),
+    )
+    has_coincident: bool = _row(  # flat lamps that share a place with other surfaces
+        lambda it: bool(it.facts.coincidence.pairs),
+        "lamps in shared places",
+        reasons.coincident,
+        most=False,
+    )
+    has_background: bool = _row(lambda it: it.has_background, "background", reasons.background)
+    has_horizon: bool = _row(  # a background of two gradients
+        lambda it: it.has_background and len(it.scene.background.gradient) > 2,
+        "horizon",
+        reasons.horizon,
+    )
+    has_environment: bool = _row(  # a background given by an image
+        lambda it: it.has_image, "image of the sky", reasons.environment, most=False
+    )
+    sample_sky: bool = _row(  # samples the image of the sky
+        lambda it: it.has_image and it.traits.samples_lights,
+        "sky sampling",
+        reasons.by_method_and_sky,
+        most=False,
+    )
+    has_sun: bool = _row(lambda it: it.has_sun and not it.traits.model, "sun", reasons.sun)
+    sample_sun: bool = _row(lambda it: it.has_sun and it.traits.samples_lights, "sun sampling")
+    sample_lights: bool = _row(
+        lambda it: it.is_lit and it.traits.samples_lights,
+        "light sampling",
+        reasons.by_method_and_lamps,
+    )
+    # Kinds that are sampled, or that light surfaces in the classic models.
+    lamps: frozenset[str] = _row(lambda it: frozenset(it.facts.sampled if it.is_lit else ()))
+    quads_by_area: bool = _row(  # samples lamps evenly by area, not by solid angle
+        lambda it: it.is_lit and it.traits.weights_both and it.facts.lamps["quad"] > 0,
+        "lamps by area",
+        reasons.by_method_and_lamps,
+    )
+    clusters: int = _row(  # lamps weighed at each point, or clusters of many lamps
+        lambda it: it.facts.clusters if it.traits.chooses_lights else 0,
+        "near lamps",
+        reasons.by_method_and_lamps,
+        shown=lambda needs: needs.clusters > 1,
+        most=0,
+    )
+    many_lights: bool = _row(  # more than MOST_NEAR lamps are sampled
+        lambda it: it.traits.chooses_lights and it.facts.has_many_lights,
+        "lamps in clusters",
+        _in_clusters,
+    )
+    weight_both: bool = _row(
+        lambda it: (it.is_lit or it.has_image or it.has_sun) and it.traits.weights_both,
+        "both weighted",
+        reasons.by_method_and_lamps,
+    )
+    model: int = _row(  # number of a classic lighting model; 0: paths are traced
+        lambda it: it.model, "lighting model", reasons.model, most=0
+    )
+    has_probes: bool = _row(  # indirect light from a grid of probes
+        lambda it: it.traits.has_probes, "probes", most=False
+    )
+    final_gather: bool = _row(  # traces paths to one more matte surface before it reads probes
+        lambda it: it.traits.gathers, "final gather", most=False
+    )
+    resamples: bool = _row(  # keeps one of the points that light the first matte surface
+        lambda it: it.resamples, "resampling", reasons.resampling, most=False
+    )
+    reuses_own: bool = _row(  # reuses the point that the previous sample kept for the pixel
+        lambda it: it.reuses and it.settings.reuse in TEMPORAL,
+        "reuse",
+        reasons.reuse,
+        shown=lambda needs: needs.reuses_own or needs.reuses_near > 0,
+        most=False,
+    )
+    reuses_near: int = _row(  # number of pixels around, whose kept points are reused
+        lambda it: NEAR if it.reuses and it.settings.reuse in SPATIAL else 0, most=0
+    )
+    unbiased: bool = _row(  # checks which reused points other pixels could have found
+        lambda it: it.reuses and it.settings.unbiased, most=False
+    )
+    has_particles: bool = _row(  # particles from lamps, linked to the camera
+        lambda it: it.sends_particles, "particles", reasons.caustics
+    )
+    casters: int = _row(  # spheres at which some particles are aimed: a bit for each
+        lambda it: it.particles.casters if it.aims else 0, most=0
+    )
+    targets: int = _row(  # number of balls around other shapes at which some particles are aimed
+        lambda it: len(it.particles.targets) if it.aims else 0, most=0
+    )
+    linked: int = _row(  # smooth spheres through which some particles are linked: a bit for each
+        lambda it: it.particles.links if it.sends_particles and it.settings.linked else 0,
+        "linked spheres",
+        reasons.links,
+        most=0,
+    )
+    roulette: bool = _row(
+        lambda it: it.settings.roulette and it.traits.follows, "roulette", reasons.roulette
+    )
+    block: int = _row(  # samples in an observation: 16 or 64 of Sobol's points, 1 of random numbers
+        lambda it: it.settings.block,
+        "Sobol points",
+        reasons.sampler,
+        shown=lambda needs: needs.block > 1,
+        most=1,
+    )
 
     def constants(self) -> dict[str, bool | int]:
         """Return the constants of the kernel's prelude, by name."""
@@ -98,11 +258,20 @@ class Needs:
         own = [name for name in TYPES if name not in WITHOUT_OWN_FLAG]
         types = {f"HAS_{name.upper()}": name in self.materials for name in own}
         lamps = {f"HAS_{kind.upper()}_LIGHT": kind in self.lamps for kind in SAMPLED}
-        plain = [field.name for field in fields(self) if field.name not in _SETS]
-        values = {name.upper(): getattr(self, name) for name in plain}
+        values = {name.upper(): getattr(self, name) for name in ROWS if name not in SETS}
         counts = {"LAMP_KINDS": len(self.lamps), "COUNT_RAYS": False, "COUNT_BOUNCES": False}
         every = {**kinds, **types, **lamps, **values, **NO_LAYERS, **NO_TREE, **counts}
         return {**every, **PLAIN_PROBES}
+
+
+ROWS: dict[str, Row] = {it.name: it.metadata["row"] for it in fields(Needs)}
+SETS = {"shapes": KINDS, "materials": TYPES, "lamps": SAMPLED}
+
+
+def needs_of(facts: SceneFacts, settings: Settings) -> Needs:
+    """Return the features that this scene needs with these settings."""
+    case = Case(facts, settings)
+    return Needs(**{name: row.when(case) for name, row in ROWS.items()})
 
 
 def everything() -> dict[str, bool | int]:
@@ -112,113 +281,6 @@ def everything() -> dict[str, bool | int]:
     The sky has two gradients. It has no image, which would take their place, and there are no
     probes, which would take the place of paths.
     """
-    plain: Any = {field.name: field.name not in _IMAGE for field in fields(Needs)}
-    sets = {name: frozenset(all_) for name, all_ in _SETS.items()}
-    numbers = {"model": 0, "clusters": 0, "block": 1, "media": 0, "instance_bits": 0, "casters": 0}
-    numbers |= {"targets": 0, "linked": 0, "reuses_near": 0}
-    return Needs(**{**plain, **sets, **numbers}).constants()
-
-
-_IMAGE = (
-    *("has_environment", "sample_sky", "has_probes", "final_gather", "has_coincident"),
-    *("resamples", "reuses_own", "unbiased"),
-)
-_SETS = {"shapes": KINDS, "materials": TYPES, "lamps": SAMPLED}
-WITHOUT_OWN_FLAG = ("lambertian", "light", "metal")
-
-
-def needs_of(facts: SceneFacts, settings: Settings) -> Needs:
-    """Return the features that this scene needs with these settings."""
-    scene, particles, traits = facts.scene, facts.particles, METHODS[settings.method]
-    is_lit = traits.uses_lamps and facts.sampled_lamps > 0
-    is_pictured, has_sun = has_image(scene), any(scene.sun_radiance)
-    sends_particles = is_lit or particles.sun_sends or particles.sky_sends
-    follows_particles = settings.caustics == "on" and sends_particles and traits.weighs_particles
-    metals = [m for m in facts.materials.values() if m.type == "metal"]
-    return Needs(
-        shapes=frozenset(kind for kind, count in facts.shapes.items() if count),
-        materials=_types(facts, traits.follows),
-        lamps=frozenset(facts.sampled if is_lit else ()),
-        has_sphere_tree=facts.has_sphere_tree,
-        has_tree=bool(facts.tree_kinds),
-        has_instance=bool(facts.instances),
-        instance_bits=facts.instance_bits,
-        has_smooth=facts.is_smooth,
-        has_vertex_color=facts.is_colored,
-        has_map=bool(facts.mapped),
-        has_color_map="color" in facts.mapped,
-        has_emission_map="emission" in facts.mapped,
-        has_gloss_map=bool(facts.mapped & {"metallic", "roughness"}),
-        has_normal_map="normal" in facts.mapped,
-        has_coverage_map="alpha" in facts.mapped,
-        has_transmission_map="transmission" in facts.mapped,
-        has_mirror=traits.follows and any(m.alpha == 0 or not traits.has_rough for m in metals),
-        has_rough_metal=traits.has_rough and any(m.alpha > 0 for m in metals),
-        has_rough_glass=traits.follows and traits.has_rough and bool(facts.rough_glasses),
-        has_transmission=bool(facts.transmitting),
-        has_hole=bool(facts.holed),
-        has_coat=bool(facts.coated),
-        has_conductor=bool(facts.conductors),
-        has_pane=traits.follows and bool(facts.panes),
-        has_attenuation=traits.follows and bool(facts.tinted),
-        has_nested=traits.follows and bool(facts.media),
-        media=len(facts.media) if traits.follows else 0,
-        has_lens=traits.has_lens and scene.camera.defocus_angle > 0,
-        has_cone=bool(facts.cones),
-        has_one_sided=bool(facts.one_sided),
-        has_coincident=bool(facts.coincidence.pairs),
-        has_background=any(map(any, scene.background_colors)),
-        has_horizon=any(map(any, scene.background_colors)) and len(scene.background.gradient) > 2,
-        has_environment=is_pictured,
-        has_sun=has_sun and not traits.model,
-        sample_sky=is_pictured and traits.samples_lights,
-        sample_sun=has_sun and traits.samples_lights,
-        sample_lights=is_lit and traits.samples_lights,
-        weight_both=(is_lit or is_pictured or has_sun) and traits.weights_both,
-        quads_by_area=is_lit and traits.weights_both and facts.lamps["quad"] > 0,
-        has_particles=follows_particles,
-        casters=particles.casters if follows_particles and settings.aimed else 0,
-        targets=len(particles.targets) if follows_particles and settings.aimed else 0,
-        linked=particles.links if follows_particles and settings.linked else 0,
-        **_of_probes(settings, facts),
-        roulette=settings.roulette and traits.follows,
-        model=_model_number(settings.method, metals),
-        many_lights=traits.chooses_lights and facts.has_many_lights,
-        clusters=facts.clusters if traits.chooses_lights else 0,
-        block=settings.block,
-    )
-
-
-def _of_probes(settings: Settings, found: SceneFacts) -> dict[str, Any]:
-    """Return the features of methods with probes."""
-    traits = METHODS[settings.method]
-    resamples = traits.resamples and not found.holed  # a ray sees through holes at random
-    reuses = resamples and reuses_points(settings)
-    return {
-        "has_probes": traits.has_probes,
-        "final_gather": traits.gathers,
-        "resamples": resamples,
-        "reuses_own": reuses and settings.reuse in TEMPORAL,
-        "reuses_near": NEAR if reuses and settings.reuse in SPATIAL else 0,
-        "unbiased": reuses and settings.unbiased,
-    }
-
-
-def _types(found: SceneFacts, follows: bool) -> frozenset[str]:
-    types = {m.type for m in found.materials.values() if not m.is_transparent}
-    return frozenset(types | ({"dielectric"} if follows and found.solid_glasses else set()))
-
-
-def has_image(scene: Scene) -> bool:
-    """Return whether light comes from an image of the sky."""
-    return any(map(any, scene.background_colors)) and scene.background.is_pictured
-
-
-def _model_number(method: str, metals: Sequence[Metal]) -> int:
-    """Return the number of a method's lighting model; 0 for path tracing.
-
-    Without rough metal, `blinn` is the same model as `phong`: they differ only in highlights.
-    """
-    if method == "blinn" and not any(metal.alpha > 0 for metal in metals):
-        return METHODS["phong"].model
-    return METHODS[method].model
+    plain: Any = {name: row.most for name, row in ROWS.items()}
+    sets = {name: frozenset(every) for name, every in SETS.items()}
+    return Needs(**{**plain, **sets}).constants()

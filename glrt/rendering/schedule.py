@@ -17,8 +17,9 @@ from glrt.gpu.glsl import read
 from glrt.gpu.program import Pace
 from glrt.gpu.structs import read_constants
 from glrt.packing.kernel_structs import CONSTANTS
+from glrt.plan.case import has_image
 from glrt.plan.facts import MESH, SceneFacts
-from glrt.plan.features import NEAR, has_image
+from glrt.plan.features import NEAR
 from glrt.plan.methods import METHODS, SPATIAL, TEMPORAL, reuses_points
 from glrt.plan.plan import Plan
 from glrt.scene.scene import Scene

@@ -1,0 +1,97 @@
+"""A scene with its settings, and what both together ask of the kernel."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+from glrt.plan.facts import SceneFacts
+from glrt.plan.methods import METHODS, Traits, reuses_points
+from glrt.plan.particles import ParticleFacts
+from glrt.scene.materials.metal import Metal
+from glrt.scene.scene import Scene
+from glrt.settings import Settings
+
+
+@dataclass(frozen=True)
+class Case:
+    """A scene with its settings; features of the kernel follow from both."""
+
+    facts: SceneFacts
+    settings: Settings
+
+    @property
+    def scene(self) -> Scene:
+        """The scene."""
+        return self.facts.scene
+
+    @property
+    def traits(self) -> Traits:
+        """Traits of the method."""
+        return METHODS[self.settings.method]
+
+    @property
+    def particles(self) -> ParticleFacts:
+        """Facts of the scene that particles need."""
+        return self.facts.particles
+
+    @cached_property
+    def metals(self) -> Sequence[Metal]:
+        """The metals of visible surfaces."""
+        return [it for it in self.facts.materials.values() if isinstance(it, Metal)]
+
+    @cached_property
+    def is_lit(self) -> bool:
+        """Whether the method uses lamps, and the scene has some that are sampled."""
+        return self.traits.uses_lamps and self.facts.sampled_lamps > 0
+
+    @cached_property
+    def has_background(self) -> bool:
+        """Whether light comes from the sky."""
+        return any(map(any, self.scene.background_colors))
+
+    @cached_property
+    def has_image(self) -> bool:
+        """Whether light comes from an image of the sky."""
+        return has_image(self.scene)
+
+    @cached_property
+    def has_sun(self) -> bool:
+        """Whether light comes from the sun."""
+        return any(self.scene.sun_radiance)
+
+    @cached_property
+    def sends_particles(self) -> bool:
+        """Whether particles are wanted, some light sends them, and the method weighs them."""
+        particles = self.particles
+        sends = self.is_lit or particles.sun_sends or particles.sky_sends
+        return self.settings.caustics == "on" and sends and self.traits.weighs_particles
+
+    @property
+    def aims(self) -> bool:
+        """Whether some particles are aimed at what makes caustics."""
+        return self.sends_particles and self.settings.aimed > 0
+
+    @property
+    def resamples(self) -> bool:
+        """Whether light is resampled; a ray sees through holes at random, so not with holes."""
+        return self.traits.resamples and not self.facts.holed
+
+    @property
+    def reuses(self) -> bool:
+        """Whether points of other samples or pixels are reused."""
+        return self.resamples and reuses_points(self.settings)
+
+    @property
+    def model(self) -> int:
+        """Number of the method's lighting model; 0 for path tracing.
+
+        Without rough metal, `blinn` is the same model as `phong`: they differ only in highlights.
+        """
+        is_rough = any(metal.alpha > 0 for metal in self.metals)
+        is_phong = self.settings.method == "blinn" and not is_rough
+        return METHODS["phong"].model if is_phong else self.traits.model
+
+
+def has_image(scene: Scene) -> bool:
+    """Return whether light comes from an image of the sky."""
+    return any(map(any, scene.background_colors)) and scene.background.is_pictured
