@@ -27,7 +27,6 @@ from glrt.scene.scene import Scene
 from glrt.settings import Method, settings_for
 from glrt.view.controls import replaced
 from glrt.view.edits.scene_edits import with_material, with_object
-from glrt.view.state.live_probes import When
 
 SECONDS = 6.0  # of each drag
 REST = 12  # frames between drags, and at least so many before the first
@@ -67,8 +66,6 @@ def main(arguments: list[str] | None = None) -> int:
     modes = get_args(Mode)
     parser.add_argument("--temporal", choices=modes, default="reset", help="(default: reset)")
     parser.add_argument("--method", choices=METHODS, help="(default: the scene's)")
-    whens = get_args(When)
-    parser.add_argument("--live-probes", choices=whens, default=whens[1], help=f"({whens[1]})")
     parsed = parser.parse_args(arguments)
     has_display = sys.platform != "linux" or {"DISPLAY", "WAYLAND_DISPLAY"} & os.environ.keys()
     if not has_display and not shutil.which("Xvfb"):
@@ -76,7 +73,7 @@ def main(arguments: list[str] | None = None) -> int:
         return 3
     with nullcontext() if has_display else screen("1280x840") as name:
         os.environ.update({"DISPLAY": name} if name else {})
-        ways = {"temporal": parsed.temporal, "live_probes": parsed.live_probes}
+        ways = {"temporal": parsed.temporal}
         measured = measure(parsed.scene, parsed.size, parsed.seconds, ways, parsed.method)
         print("\n".join(told(*measured)))
     return 0

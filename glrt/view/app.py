@@ -24,7 +24,6 @@ from glrt.view.messages import Messages, Question
 from glrt.view.state.error_history import Progress
 from glrt.view.state.frame_budget import FrameBudget
 from glrt.view.state.keys import Action
-from glrt.view.state.live_probes import LiveProbes
 from glrt.view.state.path_explorer import PathExplorer
 from glrt.view.state.preferences import Preferences, save_preferences
 from glrt.view.state.session import Session
@@ -232,8 +231,7 @@ class App(CameraMoves):
         try:
             count = self.preferences.samples_per_frame
             chosen = self.preferences
-            self.session.moving.use(Way(chosen.temporal, chosen.predictor, chosen.traced))
-            self.session.live = LiveProbes(chosen.live_probes, chosen.hysteresis)
+            self.session.moving.use(Way(chosen.temporal, chosen.predictor))
             start = time.perf_counter()
             self.show.holds = self.pair.advance(self.pace.seconds, count)
             self.show.advance(self.session, self.pace.seconds, count)

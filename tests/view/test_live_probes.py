@@ -8,9 +8,10 @@ import pytest
 from glrt.core.errors import UsageError
 from glrt.gpu.context import Context
 from glrt.image.sources import load
+from glrt.rendering.probe_supply import HYSTERESIS
 from glrt.scene.scene import with_lights
 from glrt.settings import Settings, settings_for
-from glrt.view.state.live_probes import LiveProbes, When, told
+from glrt.view.state.live_probes import kept_by_probes, notice_of_lag
 from glrt.view.state.preview_size import STILL
 from glrt.view.state.session import Session
 from tests.support.images import same_bits
@@ -18,7 +19,7 @@ from tests.support.renders import rendered
 from tests.support.sessions import Clock, frames, start, walked
 
 WAY: dict[str, Any] = {"width": 16, "height": 16, "method": "ddgi", "probes": 2, "sampler": "sobol"}
-Opened = Callable[[When], Session]
+Opened = Callable[[], Session]
 
 
 @pytest.fixture
@@ -28,13 +29,12 @@ def clock() -> Clock:
 
 @pytest.fixture
 def opened(context: Context, clock: Clock) -> Iterator[Opened]:
-    """A session by `ddgi` with a picture of 4 samples, whose probes are live as told."""
+    """A session by `ddgi` with a picture of 4 samples."""
     sessions: list[Session] = []
 
-    def open_one(when: When) -> Session:
+    def open_one() -> Session:
         scene = load("lamps")
         session = Session(scene, settings(), context, clock)
-        session.live = LiveProbes(when, 0.9)
         sessions.append(session)
         start(session)
         session.advance(10.0, count=4)
@@ -57,29 +57,29 @@ def dim(session: Session, factor: float) -> None:
 
 
 def test_probes_go_on_while_edits_follow_one_another(opened: Opened) -> None:
-    session = opened("moving")
+    session = opened()
     assert session.lag == 0.0
     dim(session, 0.5)
-    assert session.lag == pytest.approx(0.9)
+    assert session.lag == pytest.approx(HYSTERESIS)
     frames(session, 3)  # the picture begins anew with each, though nothing is edited
-    assert session.lag == pytest.approx(0.9**4)
+    assert session.lag == pytest.approx(HYSTERESIS**4)
     dim(session, 0.25)
-    assert session.lag == pytest.approx(0.9)
+    assert session.lag == pytest.approx(HYSTERESIS)
 
 
 def test_a_walk_of_the_camera_changes_no_light(opened: Opened) -> None:
-    session = opened("moving")
+    session = opened()
     dim(session, 0.5)
     session.edit(walked(session.scene))
     session.advance(10.0, count=1)
-    assert session.lag == pytest.approx(0.9**2)
+    assert session.lag == pytest.approx(HYSTERESIS**2)
 
 
 @pytest.mark.slow
 def test_at_rest_the_picture_is_one_of_its_own(
     opened: Opened, clock: Clock, context: Context
 ) -> None:
-    session = opened("moving")
+    session = opened()
     dim(session, 0.5)
     with pytest.raises(UsageError, match="live"):
         session.image()
@@ -95,41 +95,22 @@ def test_at_rest_the_picture_is_one_of_its_own(
     assert same_bits(image.radiance, expected.radiance)
 
 
-def test_always_live_probes_never_rest(opened: Opened, clock: Clock) -> None:
-    session = opened("always")
-    clock.now += 2 * STILL
-    frames(session, 3)
+def test_a_pause_ends_live_probes(opened: Opened) -> None:
+    session = opened()
+    dim(session, 0.5)
+    frames(session, 1)
+    session.paused = True
     before = session.restarts
     frames(session, 4)
-    assert session.restarts == before + 4
-    assert not session.is_done
-    session.paused = True
-    frames(session, 4)
-    assert session.restarts == before + 4
-    assert session.is_done
+    assert session.restarts == before
 
 
-def test_probes_that_are_not_live_are_made_again(opened: Opened) -> None:
-    session = opened("off")
-    dim(session, 0.5)
-    frames(session, 2)
-    assert session.lag == 0.0
-    assert session.image().samples > 0
-
-
-def test_methods_without_probes_are_left_alone(context: Context, clock: Clock) -> None:
-    session = Session(load("lamps"), settings_for(settings(), method="mis"), context, clock)
-    session.live = LiveProbes("always")
-    with context.gl:
-        start(session)
-        session.advance(10.0, count=4)
-        before = session.restarts
-        frames(session, 4)
-        assert session.restarts == before
-        assert session.image().samples >= 4
-        session.release()
+def test_methods_without_probes_are_left_alone() -> None:
+    assert kept_by_probes(settings(), is_moving=True) == HYSTERESIS
+    assert kept_by_probes(settings(), is_moving=False) is None
+    assert kept_by_probes(settings_for(settings(), method="mis"), is_moving=True) is None
 
 
 def test_the_lag_is_reported_while_there_is_one() -> None:
-    assert told(0.0) == ""
-    assert "61%" in told(0.97**16)
+    assert notice_of_lag(0.0) == ""
+    assert "61%" in notice_of_lag(0.97**16)

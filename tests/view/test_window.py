@@ -110,7 +110,7 @@ SLOW = (  # half a second each, or more
     "commands_stay_in_sight_while_the_panel_scrolls",
     "a_widget_stays_where_it_is_when_rows_come_and_go",
     "every_control_of_the_panel_is_moved_here",
-    "probes_are_live_while_the_user_wants_it",
+    "probes_are_live_while_edits_follow_one_another",
     "a_walk_without_end_stops_at_the_limits",
     "the_figures_report_error_and_forecast",
     "points_are_reused_as_the_panel_says",

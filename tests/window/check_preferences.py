@@ -19,7 +19,6 @@ from tests.window.hand import Hand, check
 CHOICES: dict[str, Any] = {
     "temporal": "reproject",
     "predictor": "delayed",
-    "traced": 4,
     "samples per frame": 3,
     "target error": 0.1,
     "mode": "fly",

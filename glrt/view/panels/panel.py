@@ -41,8 +41,7 @@ DISPLAY = ("exposure", "tonemap")
 FRAME: tuple[Literal["width"], Literal["height"]] = ("width", "height")
 CAMERA = {c.name: c for c in controls_of(Camera)}
 PREFERENCES = controls_of(Preferences)
-LIVE_PROBES = ("live_probes", "hysteresis")  # shown if the method has probes
-MOVING = ("mode", "temporal", "predictor", "traced")
+MOVING = ("mode", "temporal", "predictor")
 FREE_SAMPLES = ("samples_per_frame", "target_error")
 
 _OPEN = imgui.TreeNodeFlags_.default_open.value
@@ -122,7 +121,6 @@ def _paths(app: App) -> None:
     _settings(app, PATHS)
     if METHODS[session.settings.method].has_probes:
         _settings(app, PROBES)
-        _preferences(app, [c for c in PREFERENCES if c.name in LIVE_PROBES])
     if METHODS[session.settings.method].resamples:
         _settings(app, REUSE)
     if session.settings.caustics == "on":
@@ -176,7 +174,7 @@ def _frame(app: App) -> None:
 
 
 def _window(app: App) -> None:
-    shown = [c for c in PREFERENCES if c.name not in (*MOVING, *LIVE_PROBES, *FREE_SAMPLES)]
+    shown = [c for c in PREFERENCES if c.name not in (*MOVING, *FREE_SAMPLES)]
     _preferences(app, shown)
     imgui.separator_text("what an edit costs")
     legend()

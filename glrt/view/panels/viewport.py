@@ -22,7 +22,7 @@ from glrt.view.panels.path_overlay import draw_outside, draw_paths, paths_text, 
 from glrt.view.panels.shortcuts import modifiers
 from glrt.view.panels.tour import room_next_to_tour
 from glrt.view.state.keys import label
-from glrt.view.state.live_probes import told
+from glrt.view.state.live_probes import notice_of_lag
 from glrt.view.state.zoom import Rectangle, common
 from glrt.view.viewport.outline import outline
 
@@ -93,7 +93,7 @@ def _notices(app: App) -> tuple[str, ...]:
     """Return the notices over the picture, a line each; "" for none."""
     return (
         app.show.notice(app.session),
-        told(app.session.lag),
+        notice_of_lag(app.session.lag),
         paths_text(app),
         "old picture, until the new one has a sample" if _is_old(app) else "",
         _black_text(app),

@@ -10,14 +10,11 @@ from pydantic import Field, ValidationError, field_validator
 
 from glrt.core.errors import RenderError
 from glrt.core.files import reason, write_text
-from glrt.rendering.history.ataa import CHOICES, SAMPLES
 from glrt.rendering.history.temporal import Mode as Temporal
 from glrt.rendering.history.wrls import Predictor
-from glrt.rendering.probe_supply import HYSTERESIS
 from glrt.settings import Cost, Editable, Frozen
 from glrt.view.state import keys
 from glrt.view.state.keys import DEFAULTS, Bindings
-from glrt.view.state.live_probes import When
 
 Mode = Literal["orbit", "fly"]
 Theme = Literal["dark", "light"]
@@ -57,26 +54,6 @@ class Preferences(Frozen):
         "published",
         description="of temporal wrls, what its line runs over; published: a mean that holds the "
         "new sample, quick to follow; delayed: the mean before it, calmer and later",
-    )
-    traced: Annotated[int, Editable(FREE, "samples", (CHOICES[0], CHOICES[-1]))] = Field(
-        SAMPLES,
-        description="of temporal ataa, how often each pixel is traced where what was shown fails; "
-        "a view takes longer by these",
-        ge=CHOICES[0],
-        le=CHOICES[-1],
-    )
-    live_probes: Annotated[When, Editable(FREE)] = Field(
-        "moving",
-        description="whether probes go on from picture to picture, one update each, and light lags "
-        "behind; moving: while edits follow one another, then probes are made anew; always: with "
-        "every frame, so that a picture never ends; off: each picture has probes of its own",
-    )
-    hysteresis: Annotated[float, Editable(FREE, slider=(0, 0.99))] = Field(
-        HYSTERESIS,
-        description="share of what they hold that live probes keep at an update: more lags longer, "
-        "less is noisier",
-        ge=0,
-        lt=1,
     )
     mode: Annotated[Mode, Editable(FREE)] = Field(
         "orbit", description="orbit: a drag turns about the pivot; fly: about the camera"

@@ -20,7 +20,7 @@ from glrt.view.edits.edited_state import State
 from glrt.view.edits.editing import Editing
 from glrt.view.state.idle_kernel import IdleKernel
 from glrt.view.state.layer_limits import LayerLimits
-from glrt.view.state.live_probes import LiveProbes
+from glrt.view.state.live_probes import kept_by_probes
 from glrt.view.state.moving_picture import MovingPicture
 from glrt.view.state.preview_noise import FirstSurface
 from glrt.view.state.preview_size import Preview
@@ -53,7 +53,6 @@ class Session(Editing):
         self.refused: tuple[Aov, ...] = ()  # that the driver refused
         self.stop: int | None = None  # samples at which a frame is to end
         self.surface, self.moving = FirstSurface(), MovingPicture(context.gl)
-        self.live = LiveProbes()
         self.busy = ""  # notice on what the next frame waits for
         self.restarts = 0
         self.rendering = 0.0  # seconds that were spent on the samples so far
@@ -127,7 +126,7 @@ class Session(Editing):
     @property
     def _hysteresis(self) -> float | None:
         """Hysteresis of the probes for the next picture; None if they are not live."""
-        return self.live.kept(self.settings, self._preview.is_under_way)
+        return kept_by_probes(self.settings, self._preview.is_under_way)
 
     @property
     def is_done(self) -> bool:
