@@ -40,7 +40,7 @@ Path start_path(Ray ray) {
     uint counts = HAS_NESTED ? frame.camera_counts : 0u;
     precise Passed passed = Passed(0u, ray, 0.0);
     precise Rivals rivals = Rivals(0.0, start_chain(ray));
-    Asking asking = Asking(!FINAL_GATHER || FROM_PROBES, false);
+    precise Asking asking = Asking(!FINAL_GATHER || FROM_PROBES, false);
     return Path(ray, vec3(1.0), 1.0, vec3(0.0), 0.0, 0.0, 0, absorption, counts, passed, rivals, asking, NO_LAYERS);
 }
 
