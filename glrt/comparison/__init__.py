@@ -3,7 +3,6 @@
 Modules, each importing only what stands above it:
 
 - regions: sums of pixels over the whole picture and over blocks
-- rare_light: noise that is concentrated in single pixels
 - noise: what chance can do to a difference
 - sensitivity: how large a change would have been found
 - result: the result of a comparison

@@ -18,13 +18,42 @@ pixels has no vote, since its claim says nothing. Both judges must agree on a di
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from statistics import NormalDist
 from typing import NamedTuple
 
 import numpy as np
 
-from glrt.comparison.rare_light import rare_variance
-from glrt.comparison.regions import Add, Array, blocks, ratio_of, spread_out
+from glrt.comparison.regions import Add, Array, blocks, edges, ratio_of, spread_out
+
+FAR = 16.0  # times the variance that is usual in a place
+
+
+def rare_variance(variance: Array, other: Array) -> Array:
+    """The variance of the pixels that met rare light, 0 elsewhere, (H, W, 3).
+
+    `variance` is that of the means of a picture's pixels. `other` is that of another picture's,
+    scaled to as many samples per pixel.
+    """
+    usual = spread_out(_largest_around(_medians(variance)), variance.shape)
+    return np.where(variance > FAR * np.maximum(usual, other), variance, 0.0)
+
+
+def _medians(pixels: Array) -> Array:
+    """Medians of the blocks, (rows, columns, 3)."""
+    rows, columns = edges(pixels.shape[0]), edges(pixels.shape[1])
+    bands = [pixels[top:end] for top, end in pairwise(rows)]
+    sides = list(pairwise(columns))
+    return np.array([[np.median(band[:, i:j], axis=(0, 1)) for i, j in sides] for band in bands])
+
+
+def _largest_around(values: Array) -> Array:
+    """The maximum over each block and its eight neighbours."""
+    rows, columns = values.shape[:2]
+    framed = np.pad(values, ((1, 1), (1, 1), (0, 0)), mode="edge")
+    shifted = [framed[y : y + rows, x : x + columns] for y in range(3) for x in range(3)]
+    return np.asarray(np.max(shifted, axis=0))
+
 
 ROUNDING = 1e-5  # of the radiance: two equal pictures of different programs may differ by that
 FEWEST_PIXELS = 16  # that must carry the noise of a place before its own variance may judge it

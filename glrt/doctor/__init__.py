@@ -4,6 +4,5 @@ Modules, each importing only what stands above it:
 
 - route_process: one route tried in a process of its own
 - install_hints: what to install, by system
-- missing_features: features that need a missing package
 - report: every route, and what to do
 """

@@ -12,13 +12,35 @@ import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib.metadata import version
+from importlib.util import find_spec
 from typing import Any, NamedTuple
 
 from glrt.core.version import VERSION
 from glrt.doctor.install_hints import remedies
-from glrt.doctor.missing_features import lacking
 from glrt.gpu.context import MOST_DEVICES, ROUTES
 from glrt.gpu.driver_checks import MOST_ROUNDS
+from glrt.plan.combinations import MEANINGS, Way
+
+# Purpose of each extra of the package, and the modules that it installs.
+EXTRAS = {
+    "view": ("the window", ("imgui_bundle", "glfw")),
+    "chart": ("charts and stress tests", ("matplotlib",)),
+    "flip": ("FLIP beside the error in charts", ("flip_evaluator",)),
+}
+
+
+def lacking(has_compute: bool) -> list[str]:
+    """Return a line for each missing feature; `has_compute`: whether compute shaders work."""
+    missing = [
+        f"{purpose}: pip install 'glrt[{extra}]'"
+        for extra, (purpose, modules) in EXTRAS.items()
+        if not all(map(find_spec, modules))
+    ]
+    if not has_compute:
+        layers = f"{Way.LAYERS} ({MEANINGS[Way.LAYERS]})"
+        missing.append(f"{layers}: needs compute shaders, OpenGL 4.3")
+    return missing
+
 
 PATIENCE = 120  # seconds for one route: a software driver may compile for some of them
 PIPELINES = ("compute", "fragment")

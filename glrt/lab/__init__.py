@@ -18,8 +18,7 @@ Modules, each importing only what stands above it:
 - moving: history while the camera moves
 - history: what temporal modes make of a still pixel
 - sky: a sun of one pixel in an image of the sky
-- rough_glass: the light that rough glass keeps, a lamp inside it
-- plastic: the light that white plastic keeps
+- rough_glass: the light that rough glass and white plastic keep, a lamp inside glass
 - textures: coordinates far away, bent normals, layers full of holes
 - points: points of a sampler in ever more dimensions
 - sums: accumulation, random numbers, long paths

@@ -7,9 +7,117 @@ from collections.abc import Callable
 from functools import lru_cache
 from pathlib import Path
 
-from imgui_bundle import portable_file_dialogs
+from imgui_bundle import ImVec2, hello_imgui, imgui, portable_file_dialogs
 
-from glrt.view.file_browser import FileBrowser
+from glrt.core.text import escaped
+from glrt.view.state.folders import Listing, listing, nearest_folder
+
+_WIDTH, _ROWS = 34.0, 14.0  # in heights of a letter
+_DOUBLE = imgui.SelectableFlags_.allow_double_click | imgui.SelectableFlags_.no_auto_close_popups
+
+
+class FileBrowser:
+    """A popup that shows a folder; each call of `answer` draws it."""
+
+    def __init__(self, title: str, act: str, suffixes: tuple[str, ...], path: Path) -> None:
+        """`act` is the text of the button, `path` the folder to show or the file to propose."""
+        self._title, self._act, self._suffixes = f"{title}###file browser", act, suffixes
+        self._name = "" if path.is_dir() else path.name
+        self._answer: str | None = None
+        self._is_open, self._is_new = False, True
+        self._go(path if path.is_dir() else path.parent)
+
+    def _go(self, folder: Path) -> None:
+        self._folder = nearest_folder(folder)
+        self._typed = escaped(str(self._folder))
+        self._listing: Listing = listing(self._folder, self._suffixes)
+
+    def answer(self) -> str | None:
+        """Draw the popup; return the chosen path, "" if cancelled, None until the user chooses."""
+        if not self._is_open:
+            imgui.open_popup(self._title)
+            self._is_open = True
+        center = imgui.get_main_viewport().get_center()
+        imgui.set_next_window_pos(center, imgui.Cond_.appearing.value, ImVec2(0.5, 0.5))
+        flags = imgui.WindowFlags_.always_auto_resize.value
+        if not imgui.begin_popup_modal(self._title, None, flags)[0]:
+            return ""  # Escape closed it
+        self._draw_folder()
+        self._draw_names()
+        self._draw_answers()
+        if self._answer is not None:
+            imgui.close_current_popup()
+        imgui.end_popup()
+        return self._answer
+
+    def close(self) -> None:
+        """Do nothing: the popup closes when it is no longer drawn."""
+
+    def _draw_folder(self) -> None:
+        if imgui.button("up"):
+            self._go(self._folder.parent)
+        imgui.same_line()
+        if imgui.button("home"):
+            self._go(Path.home())
+        imgui.same_line()
+        imgui.set_next_item_width(-1)
+        flags = imgui.InputTextFlags_.enter_returns_true.value
+        is_entered, self._typed = imgui.input_text("##folder", self._typed, flags)
+        if is_entered:
+            self._go(Path(self._typed))
+
+    def _draw_names(self) -> None:
+        size = ImVec2(hello_imgui.em_size(_WIDTH), hello_imgui.em_size(_ROWS))
+        if imgui.begin_child("names", size, imgui.ChildFlags_.borders.value):
+            if self._listing.problem:
+                imgui.text_wrapped(escaped(self._listing.problem))
+            for name in self._listing.folders:
+                if self._row(f"{name}/"):
+                    self._go(self._folder / name)
+                    break
+            for name in self._listing.files:
+                is_chosen = self._row(name)
+                if is_chosen is not None:
+                    self._name = name
+                if is_chosen:
+                    self._answer = str(self._folder / name)
+        imgui.end_child()
+
+    def _row(self, name: str) -> bool | None:
+        """Draw a row of the list; None without a click, else whether it was a double click."""
+        is_picked = imgui.selectable(escaped(name), name == self._name, int(_DOUBLE))[0]
+        left = imgui.MouseButton_.left.value
+        return imgui.is_mouse_double_clicked(left) if is_picked else None
+
+    def _draw_answers(self) -> None:
+        imgui.set_next_item_width(hello_imgui.em_size(_WIDTH - 12))
+        if self._is_new:
+            imgui.set_keyboard_focus_here()  # a name can be typed at once
+            self._is_new = False
+        flags = int(
+            imgui.InputTextFlags_.enter_returns_true | imgui.InputTextFlags_.auto_select_all
+        )
+        shown = escaped(self._name)
+        is_entered, typed = imgui.input_text("##name", shown, flags)
+        self._name = self._name if typed == shown else typed
+        imgui.same_line()
+        imgui.begin_disabled(not self._name)
+        is_pressed = imgui.button(self._act)
+        imgui.end_disabled()
+        if self._name and (is_pressed or is_entered):
+            self._choose(self._folder / Path(self._name).expanduser())
+        imgui.same_line()
+        if imgui.button("cancel"):
+            self._answer = ""
+
+    def _choose(self, path: Path) -> None:
+        """Choose a file as the answer, or show a folder that was typed."""
+        if path.is_dir():
+            self._name = ""
+            self._go(path)
+        else:
+            self._answer = str(path)
+
 
 PROGRAMS = ("zenity", "kdialog", "matedialog", "qarma")  # programs that draw dialogs on Linux
 SCENES = [

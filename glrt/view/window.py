@@ -2,9 +2,11 @@
 
 import time
 from collections.abc import Callable
+from typing import Any
 
 import moderngl
 from imgui_bundle import hello_imgui, imgui, immapp
+from imgui_bundle.glfw_utils import glfw_window_hello_imgui
 
 from glrt.core.errors import ContextError
 from glrt.gpu.context import Pipeline
@@ -20,7 +22,6 @@ from glrt.view.app import App
 from glrt.view.event_wait import EventWait
 from glrt.view.file_watch import Watch
 from glrt.view.messages import Messages
-from glrt.view.native_window import Native
 from glrt.view.opengl import INSTEAD, window_version, wrap_window
 from glrt.view.panels.confirmations import draw_question
 from glrt.view.panels.layout import Shares
@@ -36,6 +37,31 @@ from glrt.view.state.preferences import load_preferences, preferences_file
 from glrt.view.state.session import Session
 from glrt.view.viewport.picture import Picture
 from glrt.view.viewport.picture_view import PictureView
+
+import glfw  # isort: skip  # the library of imgui_bundle, which must come first
+
+
+class Native:
+    """The open window of this process, for use on the window's thread."""
+
+    def __init__(self, drop: Callable[[str], object]) -> None:
+        """`drop` gets the path of a file dropped on the window; of several files, the first."""
+        self._window: Any = glfw_window_hello_imgui()
+        self._title = ""
+
+        def dropped(_window: Any, paths: Any) -> None:
+            if paths:
+                drop(paths[0])
+
+        listen: Any = glfw.set_drop_callback  # its annotations are those of the C function
+        listen(self._window, dropped)
+
+    def entitle(self, title: str) -> None:
+        """Set the title of the window."""
+        if title != self._title:
+            self._title = title
+            glfw.set_window_title(self._window, title)
+
 
 SIZE = (1240, 800)
 PANEL, FIGURES = 0.3, 0.22  # shares of the window's width, and of its height

@@ -12,7 +12,8 @@ import pytest
 from PIL import Image
 
 from glrt.analysis import plot
-from glrt.analysis.chart import drawing, experiment
+from glrt.analysis.chart import experiment
+from glrt.analysis.chart import files as drawing
 from glrt.analysis.chart.curves import Curve, Interval, Point
 from glrt.analysis.chart.experiment import Plan, measure_scene
 from glrt.analysis.variants import variants_of

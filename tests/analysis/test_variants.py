@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from glrt.analysis.chart.drawing import MARKERS
+from glrt.analysis.chart.files import MARKERS
 from glrt.analysis.variants import variants_of
 from glrt.denoise import oidn
 from glrt.image.sources import load

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from glrt.comparison.rare_light import FAR, rare_variance
+from glrt.comparison.noise import FAR, rare_variance
 from glrt.comparison.verdict import compare
 from tests.support.noisy_images import noisy
 

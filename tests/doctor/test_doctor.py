@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from glrt.doctor import install_hints, missing_features, route_process
+from glrt.doctor import install_hints, route_process
 from glrt.doctor import report as doctor
 from glrt.doctor.report import Examination, examine, report
 from glrt.gpu.context import ROUTES, Context
@@ -191,9 +191,7 @@ def test_what_the_machine_lacks_is_listed(
     told: Callable[..., str], examined: list[Examination], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     assert "Not available here" not in told()
-    monkeypatch.setattr(
-        missing_features, "find_spec", lambda name: None if name == "glfw" else name
-    )
+    monkeypatch.setattr(doctor, "find_spec", lambda name: None if name == "glfw" else name)
     assert "Not available here: the window: pip install 'glrt[view]'." in told().splitlines()
     for examination in examined:
         monkeypatch.delitem(examination.found, "compute", raising=False)

@@ -1,6 +1,6 @@
 """Undo and redo."""
 
-from glrt.view.edits.history import MOST, History
+from glrt.view.edits.editing import MOST, History
 
 
 def test_undo_and_redo_walk_through_the_states() -> None:

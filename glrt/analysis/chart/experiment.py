@@ -1,23 +1,56 @@
 """The measurement of one scene: reference, number of rays, rounds, and the resulting curves."""
 
+import hashlib
+import json
 import os
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from glrt.analysis.chart import flip
 from glrt.analysis.chart.curves import Curve, curves_of
-from glrt.analysis.chart.measure import Bench, Round
+from glrt.analysis.chart.measure import Bench, Look, Round, Run
 from glrt.analysis.chart.rays import Rays, rays_of
-from glrt.analysis.chart.saved_rounds import key_of, load_rounds, save_rounds
 from glrt.analysis.reference import Reference, reference_for
 from glrt.analysis.variants import Variant, variants_of
+from glrt.core import files
 from glrt.core.version import VERSION
 from glrt.gpu.context import Context
 from glrt.gpu.driver_checks import usable_rounds
 from glrt.plan.plan import prepare
 from glrt.rendering.schedule import iterations_per_sample
 from glrt.scene.scene import Scene
+from glrt.scene.scenefile.toml import scene_to_dict
 from glrt.settings import Settings, settings_for
+
+
+def key_of(scene: Scene, variants: Sequence[Variant], reference: Reference, place: str) -> str:
+    """A hash of everything that rounds must have in common to be combined in one chart."""
+    ways = [(variant.name, variant.settings.model_dump(mode="json")) for variant in variants]
+    truth = hashlib.sha256(reference.radiance.tobytes()).hexdigest()
+    parts = [scene_to_dict(scene), ways, truth, place, flip.is_installed()]
+    return hashlib.sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()[:32]
+
+
+def load_rounds(path: Path, key: str) -> list[Round]:
+    """The rounds in a file; empty if it is missing, damaged or of another measurement."""
+    try:
+        data = json.loads(path.read_text(encoding="utf-8"))
+        if data["key"] != key:
+            return []
+        return [
+            [Run(name, [Look(*look) for look in looks], bias) for name, looks, bias in runs]
+            for runs in data["rounds"]
+        ]
+    except (OSError, ValueError, KeyError, TypeError):
+        return []
+
+
+def save_rounds(path: Path, key: str, rounds: Sequence[Round]) -> None:
+    """Write the rounds, replacing the file."""
+    text = json.dumps({"key": key, "rounds": rounds}) + "\n"
+    files.write_text(path, text)
+
 
 SAMPLER = "independent"  # of all variants whose names do not contain another one
 REFERENCE_ERROR = 0.005  # relative RMS

@@ -7,7 +7,6 @@ Modules, each importing only what stands above it:
 - reprojection: an earlier view projected to the current one
 - history_filter: interface of the temporal modes
 - taa: temporal antialiasing
-- more_samples: more samples of some pixels
 - ataa: adaptive temporal antialiasing
 - wrls: weighted recursive least squares
 - temporal: picture on the screen while the camera moves

@@ -6,6 +6,5 @@ Modules, each importing only what stands above it:
 - new_objects: new objects and their placement
 - edited_state: the value that undo restores
 - state_differences: differences of two states, in words
-- history: undo and redo
 - editing: current and earlier states
 """

@@ -12,8 +12,7 @@ from glrt.core.errors import RenderError
 from glrt.gpu.context import Context, Pipeline
 from glrt.gpu.evaluate import Probe
 from glrt.plan.plan import Layering
-from glrt.rendering.history.ataa import Ataa
-from glrt.rendering.history.more_samples import OTHER_SEED
+from glrt.rendering.history.ataa import OTHER_SEED, Ataa
 from glrt.rendering.history.temporal import Temporal, Way
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene

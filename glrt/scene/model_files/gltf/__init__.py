@@ -7,10 +7,8 @@ Modules, each importing only what stands above it:
 - draco: meshes compressed by Draco
 - attributes: vertex attributes of primitives
 - nodes: placements of meshes, cameras and lights
-- skins: vertices moved by joints
 - primitives: triangles of primitives
 - images: embedded and external images
-- textures: textures, converted to those of a scene
 - materials: materials, converted to those of a scene
 - cameras_lights: cameras and lights, converted to those of a scene
 """

@@ -6,11 +6,47 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from glrt.scene.meshes.triangle_meshes import MOST_TRIANGLES, NO_MATERIAL, TriangleMesh, of_file
-from glrt.scene.model_files.gltf.accessors import Floats, Ints
+from glrt.scene.model_files.gltf.accessors import Floats, Ints, floats
 from glrt.scene.model_files.gltf.attributes import Attributes, weights_of
 from glrt.scene.model_files.gltf.document import Document
 from glrt.scene.model_files.gltf.nodes import Matrix, Placed, placed_nodes
-from glrt.scene.model_files.gltf.skins import skin_matrices
+
+
+def skin_matrices(
+    document: Document,
+    placed: Placed,
+    own: Attributes,
+    poses: Mapping[int, Matrix],
+    here: str,
+) -> Floats | None:
+    """Return a matrix for each vertex, (v, 4, 4), in place of its node's; None without a skin.
+
+    `poses` are the transforms of all nodes that the file shows. ValueError for data that do not
+    fit.
+    """
+    joined = own.rows("JOINTS_0", (4,)) if "skin" in placed.node else None
+    if joined is None:
+        return None
+    index = placed.node["skin"]
+    skin, name = document.item("skins", index, f"nodes[{placed.number}].skin"), f"skins[{index}]"
+    joints = document.list(skin.get("joints"), f"{name}.joints")
+    bound = np.broadcast_to(np.eye(4), (len(joints), 4, 4))
+    if "inverseBindMatrices" in skin:
+        rows = floats(document, skin["inverseBindMatrices"], (16,), f"{name}.inverseBindMatrices")
+        if len(rows) < len(joints):
+            raise ValueError(f"{name} has {len(joints)} joints and {len(rows)} matrices")
+        bound = rows[: len(joints)].reshape(-1, 4, 4).transpose(0, 2, 1)
+    moved = np.array([poses.get(joint, np.eye(4)) for joint in joints]).reshape(-1, 4, 4) @ bound
+    at, share = joined.astype(int), own.rows("WEIGHTS_0", (4,))
+    if share is None:
+        raise ValueError(f"{here}.attributes has JOINTS_0 and no WEIGHTS_0")
+    if len(at) != len(share) or not len(joints) or at.min() < 0 or at.max() >= len(joints):
+        raise ValueError(f"{here} names joints that {name} has not")
+    total = share.sum(axis=1, keepdims=True)
+    share = np.divide(share, total, out=np.zeros_like(share), where=total > 0)
+    matrices: Floats = np.einsum("vk,vkij->vij", share, moved[at])
+    return matrices
+
 
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
 _WITHOUT_AREA = (0, 1, 2, 3)  # points and lines
