@@ -74,12 +74,12 @@ class RenderSettings(Frozen):
     )
     method: Annotated[Method, Editable(Cost.RECOMPILE)] = Field(
         "mis",
-        description="how lamps are found; naive: by scattering alone; nee: by sampling a lamp at "
+        description="how light is found; naive: by scattering alone; nee: by sampling a lamp at "
         "each vertex; mis: by both, weighted (multiple importance sampling); phong, blinn, "
-        "whitted, cook: lighting models before path tracing, which leave light out; ddgi: direct "
-        "light as mis finds it, and indirect light from a grid of probes; gather: the same after "
-        "one more matte surface, to which paths are traced (final gathering); resampled: the "
-        "same, and the first matte surface is lit by one point, kept of many",
+        "whitted, cook: lighting models older than path tracing, which leave light out; ddgi: "
+        "direct light as in mis, indirect light from a grid of probes; gather: as ddgi, but paths "
+        "are traced to one more matte surface (final gathering); resampled: as gather, but the "
+        "first matte surface is lit by one resampled point",
     )
 
 
@@ -95,9 +95,9 @@ class Settings(RenderSettings):
     )
     sampler: Annotated[Sampler, Editable(Cost.RECOMPILE)] = Field(
         "sobol",
-        description="sobol: blocks of 16 samples from scrambled Sobol' points, less noise; "
-        "sobol64: blocks of 64, less still where light is even, with an error from 128 samples on; "
-        "independent: independent random numbers",
+        description="sobol: scrambled Sobol' points in blocks of 16 samples, least noise in most "
+        "scenes; sobol64: blocks of 64 samples, even less noise under smooth lighting, with an "
+        "error from 128 samples on; independent: independent random numbers",
     )
     roulette: Annotated[bool, Editable(Cost.RECOMPILE)] = Field(
         True,
@@ -105,44 +105,44 @@ class Settings(RenderSettings):
     )
     caustics: Annotated[Caustics, Editable(Cost.RECOMPILE)] = Field(
         "off",
-        description="on: particles from lamps and the sun, too, linked to the camera at "
-        "surfaces that are not smooth and weighted with the paths from the camera: less noise "
-        "where light comes through glass or by metal",
+        description="on: also trace particles from lamps and the sun. They are linked to the "
+        "camera and weighted with its paths: less noise where light comes through glass or is "
+        "reflected by metal",
     )
     particles: Annotated[float, Editable(Cost.RESTART, "", (0.02, 2))] = Field(
-        0.25, description="particles from lamps for each sample of a pixel", ge=0.01, le=16
+        0.25, description="number of particles for each sample of a pixel", ge=0.01, le=16
     )
     aimed: Annotated[float, Editable(Cost.RESTART, "", (0, 0.98))] = Field(
         0.5,
-        description="the share of the particles that is aimed at spheres of glass, or of metal "
-        "whose roughness is at most 0.4, and at balls around boxes, cylinders and meshes of these",
+        description="share of particles aimed at spheres of glass, or of metal with a roughness "
+        "of at most 0.4, and at bounding spheres of such boxes, cylinders and meshes",
         ge=0,
         le=0.98,
     )
     linked: Annotated[float, Editable(Cost.RESTART, "", (0, 1))] = Field(
         1.0,
-        description="the share of the particles that is linked to the camera through single "
-        "spheres of smooth glass or metal, too; 0: none",
+        description="share of particles that are also linked to the camera through single "
+        "spheres of smooth glass or metal; 0: none",
         ge=0,
         le=1,
     )
     probes: Annotated[int, Editable(Cost.RESTART, "probes", (2, 8))] = Field(
         0,
         description="probes along each edge of the grid of methods ddgi, gather and resampled, 2 "
-        "to 16; 0: as [probes] of the scene says, or 5",
+        "to 16; 0: as in [probes] of the scene, or 5",
         ge=0,
         le=16,
     )
     reuse: Annotated[Reuse, Editable(Cost.RECOMPILE)] = Field(
         "spatial",
-        description="which points method resampled chooses from, beside those of its own paths; "
-        "temporal: the one that the sample before kept for the pixel; spatial: those that it kept "
-        "for pixels around; both; none",
+        description="points that method resampled reuses, in addition to those of its own paths; "
+        "temporal: the one that the previous sample kept for the pixel; spatial: the ones that "
+        "it kept for pixels nearby; both; none",
     )
     unbiased: Annotated[bool, Editable(Cost.RECOMPILE)] = Field(
         True,
-        description="method resampled: send a ray to each pixel that is asked, to learn whether it "
-        "sees the same point; without, contacts and edges are too dark, for fewer rays",
+        description="trace a visibility ray for each reused sample of method resampled; off is "
+        "faster, but darkens contacts and edges",
     )
     seed: Annotated[int, Editable(Cost.RESTART)] = Field(
         0, description="seed of the random numbers", ge=0, le=0xFFFFFFFF
@@ -155,15 +155,15 @@ class Settings(RenderSettings):
     )
     aov: Annotated[tuple[Aov, ...], Editable(Cost.FREE)] = Field(
         (),
-        description="what else EXR files tell of each pixel: of the first surface behind it "
-        f"{', '.join(aov for aov in get_args(Aov) if aov not in OF_PATHS)}; of its paths "
+        description="extra channels (AOVs) of EXR files; of the first surface behind a pixel: "
+        f"{', '.join(aov for aov in get_args(Aov) if aov not in OF_PATHS)}; of its paths: "
         f"{', '.join(OF_PATHS)}",
     )
     denoise: Annotated[Denoise, Editable(Cost.FREE)] = Field(
         "none",
-        description="filter the noise out of what files show, with an estimate of the error that "
-        "is left; oidn: Intel's Open Image Denoise, which `pip install 'glrt[denoise]'` brings; "
-        "nlm: non-local means; auto: oidn where it is installed, else nlm",
+        description="denoise the saved picture, with an estimate of the remaining error; oidn: "
+        "Intel's Open Image Denoise (`pip install 'glrt[denoise]'`); nlm: non-local means; auto: "
+        "oidn if it is installed, else nlm",
     )
 
     @property
@@ -186,7 +186,7 @@ class Settings(RenderSettings):
     @classmethod
     def _probes_span_cells(cls, value: int) -> int:
         if value == 1:
-            raise ValueError("must be 0 or at least 2: one probe cannot tell places apart")
+            raise ValueError("must be 0 or at least 2: one probe cannot distinguish places")
         return value
 
     @field_validator("aov")

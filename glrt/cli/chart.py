@@ -99,7 +99,7 @@ def run(arguments: argparse.Namespace) -> int:
     plan, ways, kept = _plan(arguments), _ways(arguments), _hysteresis(arguments)
     if (curves := len(ways) + len(kept) + bool(kept)) > MOST_CURVES:
         raise UsageError(
-            f"A chart tells {MOST_CURVES} curves apart, and this asks for {curves}: choose fewer "
+            f"A chart shows at most {MOST_CURVES} curves, and this asks for {curves}: choose fewer "
             "of --temporal, --predictor, --traced or --hysteresis."
         )
     scenes = _scenes(arguments.scenes, file_rules(arguments))

@@ -137,7 +137,7 @@ def _replay(arguments: argparse.Namespace) -> int:
     asked = ("scene", "pixel", "numbers", "brightest", "json", "output", "lights")
     if settings_given(arguments) or any(getattr(arguments, name) for name in asked):
         raise UsageError(
-            "--replay FILE.json takes scene, pixel and settings from the file alone, and tells "
+            "--replay FILE.json takes scene, pixel and settings from the file alone, and reports "
             "whether its paths come out again: leave the others out."
         )
     from glrt.rendering.paths.file import TOLERANCE, first_difference

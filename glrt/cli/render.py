@@ -184,7 +184,10 @@ def unreached(
         found += f" below {2 * block} samples"
         found += " (2 with --sampler independent)" if block > 1 else ""
     if noise < wanted:
-        found = f"beside the bias of the method its noise must be {noise:.3g}, and is {found}"
+        found = (
+            f"after subtracting the bias of the method, its noise must be at most {noise:.3g}; "
+            f"it is {found}"
+        )
     else:
         found = f"it is {found}"
     return (

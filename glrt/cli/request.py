@@ -238,4 +238,4 @@ def _going_on(path: str) -> Iterator[None]:
         yield
     except UsageError as error:
         text = str(error).rstrip(".")
-        raise UsageError(f"Cannot continue {path}: {text}. Render the scene anew.") from None
+        raise UsageError(f"Cannot continue {path}: {text}. Render the scene again.") from None

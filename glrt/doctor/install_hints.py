@@ -15,7 +15,7 @@ REMEDIES = {
     "macOS": "nothing to install: the window route has OpenGL 4.1, for the fragment pipeline; it "
     "needs a session with a screen",
     "Windows": "the graphics card's driver from its maker; without a card, Mesa's opengl32.dll "
-    "beside python.exe",
+    "next to python.exe",
     "Docker": "in the image, the packages of its distribution as above; for a GPU run with "
     "--gpus all, the NVIDIA container toolkit and NVIDIA_DRIVER_CAPABILITIES=all",
     "hosted CI": "a step that installs the packages above with sudo; there is no GPU, and none is "

@@ -25,7 +25,7 @@ from glrt.plan.combinations import MEANINGS, Way
 EXTRAS = {
     "view": ("the window", ("imgui_bundle", "glfw")),
     "chart": ("charts and stress tests", ("matplotlib",)),
-    "flip": ("FLIP beside the error in charts", ("flip_evaluator",)),
+    "flip": ("FLIP in charts, in addition to the error", ("flip_evaluator",)),
 }
 
 
@@ -205,7 +205,7 @@ def _furnace(finding: Finding | None) -> str:
 
 def _verdict(used: Used | None, examinations: list[Examination]) -> str:
     if not any(examination.works for examination in examinations):
-        wanted = "No route works: glrt needs OpenGL 4.1, and 4.3 to be fast. What helps:"
+        wanted = "No route works: glrt needs OpenGL 4.1, and 4.3 to be fast. To mend that:"
         return "\n".join([wanted, *remedies()])
     chosen = next((e for e in examinations if _is_of(e, used)), examinations[0])
     route = used.route if used else chosen.route

@@ -160,7 +160,7 @@ def _objects_of(name: str, image: Image) -> AovImage:
 
 def _incomplete(name: str) -> UsageError:
     return UsageError(
-        f"{name} lacks the state of its film: another program saved it again; render it anew."
+        f"{name} lacks the state of its film: another program saved it again; render it again."
     )
 
 

@@ -139,7 +139,7 @@ _REFUSED: dict[frozenset[Way], str] = {
     frozenset({Way.ERROR, Way.PART}): _LENGTH,
     frozenset({Way.ERROR, Way.MERGED}): _LENGTH,
     frozenset({Way.DENOISE, Way.PART}): "it compares halves of all samples: render without parts",
-    frozenset({Way.DENOISE, Way.MERGED}): "its parts do not tell halves of all samples",
+    frozenset({Way.DENOISE, Way.MERGED}): "halves of all samples cannot be found from its parts",
     frozenset({Way.DENOISE, Way.AUTO}): "it chooses by the error of plain pictures: name a method",
 }
 _UNTRIED = "nobody has tried the two together"

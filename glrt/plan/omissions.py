@@ -32,7 +32,7 @@ def _blurred(facts: SceneFacts, settings: Settings) -> Iterator[str]:
     light = "light over three matte surfaces or more" if gathers else "indirect light"
     yield f"of {light} what is finer than its probes, {cell} apart"
     if reuses_points(settings) and not settings.unbiased:
-        yield "light at contacts and edges, of which points of other pixels tell too little"
+        yield "light at contacts and edges, where reused samples are unreliable"
     if kinds & {"metal", "dielectric"}:
         lit = "matte surfaces that light others" if gathers else "matte surfaces"
         yield f"light over mirrors or through glass onto {lit}"

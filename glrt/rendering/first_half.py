@@ -88,7 +88,7 @@ def check_rest(settings: Settings, begun: int) -> None:
     needed = _next_whole(begun, settings.block) + LEAST * settings.block
     if settings.denoise != "none" and settings.samples < needed:
         raise UsageError(
-            f"--denoise compares the samples to come with those that it has, {begun}: it needs "
+            f"--denoise compares new samples with the {begun} that are there: it needs "
             f"--samples {needed} at least"
         )
 

@@ -112,7 +112,7 @@ def _table(text: str, source: str) -> dict[str, Any]:
     if table["glrt_paths"] != FORMAT:
         raise SceneError(
             f"{source}: its format is {table['glrt_paths']!r}, and this version of glrt reads "
-            f"{FORMAT}. Use the version that wrote it, or store the paths anew."
+            f"{FORMAT}. Use the version that wrote it, or store the paths again."
         )
     return table
 
@@ -120,7 +120,7 @@ def _table(text: str, source: str) -> dict[str, Any]:
 def _damaged(source: str, problem: str) -> SceneError:
     return SceneError(
         f"{source}: this is no file of paths that glrt has stored, or it is damaged: {problem}. "
-        "Store the paths anew with `glrt paths SCENE --pixel X Y -o FILE.json`."
+        "Store the paths again with `glrt paths SCENE --pixel X Y -o FILE.json`."
     )
 
 

@@ -142,7 +142,7 @@ def check_method(settings: Settings) -> None:
         )
     if METHODS[settings.method].has_probes:
         raise UsageError(
-            f"paths are not shown of the method {settings.method}: they end where probes tell the "
+            f"paths are not shown of the method {settings.method}: they end where probes give the "
             "rest of the light. Choose naive, nee or mis."
         )
 

@@ -99,7 +99,7 @@ class Contribution(_Value):
         description="density with which the other strategy would have, or for a particle a path "
         "from the camera; 0: never, or not asked"
     )
-    weight: float = Field(description="of this strategy among those that find it, 0 to 1")
+    weight: float = Field(description="weight of this strategy among all for this light, 0 to 1")
     added: Triple = Field(description="what the sample got of it, weighted")
     hidden: bool = Field(description="whether something stands before it: nothing was added")
 

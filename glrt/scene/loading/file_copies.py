@@ -72,7 +72,7 @@ def _unchanged(source: _Source) -> bytes:
     content = source.origin.read_bytes()
     if hashlib.sha256(content).hexdigest() != source.sha256:
         raise UsageError(
-            f"Cannot copy {source.origin} beside the scene: it has changed since it was read. "
+            f"Cannot copy {source.origin} next to the scene: it has changed since it was read. "
             "Load the scene again."
         )
     return content

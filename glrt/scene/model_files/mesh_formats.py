@@ -165,7 +165,7 @@ def _labels(owners: Sequence[str], counts: list[int]) -> tuple[tuple[str, ...], 
     if not any(owners):
         return (), None
     if len(owners) != len(counts):
-        raise ValueError("its faces cannot be told apart by their materials (usemtl)")
+        raise ValueError("its faces cannot be divided by their materials (usemtl)")
     named = [name or NO_MATERIAL for name in owners]
     numbers = {name: number for number, name in enumerate(dict.fromkeys(reversed(named)))}
     return tuple(numbers), np.repeat([numbers[name] for name in named], counts)

@@ -20,7 +20,7 @@ MOST = Control(
 
 _GOES_ON = (
     "Let A gather samples too, by the scene and settings that it was kept with, in turns with B; "
-    "both begin anew, and the plot shows both errors over their own time"
+    "both restart, and the plot shows both errors over their own time"
 )
 GOES_ON = switch("A_goes_on", _GOES_ON, Cost.RECOMPILE)
 _PAIRING = "what A and B have in common: seconds of rendering, or samples of each pixel"
@@ -50,7 +50,7 @@ def _slot(app: App) -> None:
     app.pair.is_beside = app.pair.is_beside if wanted is None else wanted
     if button("swap A and B"):
         app.pair.swap()
-    tip("Go on editing A; what is edited now becomes A. Both begin anew; undo brings B back")
+    tip("Go on editing A; what is edited now becomes A. Both restart; undo brings B back")
 
 
 def draw_compare(app: App) -> None:
@@ -72,8 +72,9 @@ def draw_compare(app: App) -> None:
     ANCHOR.note()
     _, is_difference = imgui.checkbox("show the difference", show.view == "difference")
     tip(
-        "What the edits since change, pixel by pixel. A is rendered again at the seeds and samples "
-        "of B, so that the noise of both is the same and drops out: that takes as long as B did."
+        "The change by the edits since then, pixel by pixel. A is rendered again at the seeds and "
+        "samples of B, so that the noise of both is the same and drops out: that takes as long as "
+        "B did."
     )
     if is_difference != (show.view == "difference"):
         show.view = "difference" if is_difference else "picture"

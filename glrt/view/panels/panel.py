@@ -143,7 +143,7 @@ def _samples(app: App) -> None:
     _preferences(app, [c for c in PREFERENCES if c.name in FREE_SAMPLES])
     if button("restart"):
         app.restart()
-    tip("Begins to gather samples anew, and the figures of the picture")
+    tip("Discard all samples and begin again, with new figures of the picture")
     tag(Cost.RESTART)
 
 

@@ -64,12 +64,12 @@ def _pixel(app: App, found: PixelPaths) -> None:
     imgui.text(f"pixel {x}, {y}: {counted(len(found.radiances), 'sample')}")
     imgui.text(f"mean {triple(found.mean)}")
     if found.recipe.settings.caustics == "on":
-        _dimmed("by paths from the camera, beside particles")
+        _dimmed("by paths from the camera, without particles")
     if not app.paths.is_of(app.session.scene):
         imgui.text_wrapped("The scene has changed since; click the pixel again.")
     if button("save as a test"):
         app.files.save_paths(found)
-    tip("A JSON file with these paths: glrt paths --replay FILE tells whether they are the same")
+    tip("A JSON file with these paths: glrt paths --replay FILE reports whether they are the same")
     beside("forget")
     if button("forget##paths"):
         app.paths.forget()

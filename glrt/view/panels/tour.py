@@ -16,8 +16,8 @@ STEPS = (
     ),
     (
         "Change the light",
-        "Drag the intensity or a colour under Light. The word beside each control says what an "
-        "edit costs: relight keeps all samples, restart begins anew, recompile compiles a kernel "
+        "Drag the intensity or a colour under Light. The word next to each control says what an "
+        "edit costs: relight keeps all samples, restart discards them, recompile compiles a kernel "
         "first.",
     ),
     (

@@ -122,7 +122,7 @@ class DenoisedPicture:
         if self.found:
             return f"The denoiser {name} ended without a picture"
         if session.is_done:
-            return "Denoising compares samples to come with those that are there: restart"
+            return "Denoising compares new samples with earlier ones, and none are to come: restart"
         wanted = max(self._next, least_samples(renderer.settings.block))
         return f"Denoised from {wanted} samples on"
 

@@ -32,20 +32,21 @@ EXPLANATIONS: dict[str, str] = {
         "samples share a set of probes, which is warmed up first."
     ),
     "reuse": (
-        "Of points y_i with weights w_i = m_i P(y_i) / p(y_i) one is kept, with a chance of w_i / "
-        "sum(w), and counts L(y) sum(w) / P(y): the mean stays. P is the light that y would bring. "
-        "What other samples have kept is chosen from, too: less noise in one sample, which "
-        "samples and pixels then share."
+        "One of the points y_i is kept, with a chance of w_i / sum(w), where w_i = m_i P(y_i) / "
+        "p(y_i). It counts L(y) sum(w) / P(y), so the mean stays. P is the light that y would "
+        "bring. Points that other samples kept are candidates too: a sample has less noise, but "
+        "samples and pixels share it."
     ),
     "unbiased": (
-        "A point y counts m = P(y) / (P(y) + P'(y)) of what two pixels P and P' could have found "
-        "alike, and all of what the other does not see: a ray for each tells. Without these rays "
-        "the picture is too dark where points are hidden from some."
+        "Two pixels with the targets P and P' may both find a point y: it then counts m = P(y) / "
+        "(P(y) + P'(y)). A point that the other pixel cannot see counts whole; a visibility ray "
+        "decides that. Without these rays the picture is too dark where points are hidden from "
+        "some pixels."
     ),
     "caustics": (
-        "on: paths from the lamps, too, linked to the camera at surfaces that are not smooth. Each "
-        "way to find light is weighed by p^2 / (p^2 + q^2 + r^2), so the mean stays; light that "
-        "glass or mirrors focus has far less noise."
+        "on: also traces particles from the lamps, linked to the camera at surfaces that are not "
+        "smooth. Each way to find light is weighed by p^2 / (p^2 + q^2 + r^2), so the mean stays; "
+        "light that glass or mirrors focus has far less noise."
     ),
     "bounces": (
         "The largest number of scattering events B on a path; light that needs more is left out. "
@@ -65,7 +66,7 @@ EXPLANATIONS: dict[str, str] = {
         "A pixel is the mean of N samples. Its standard error is s / sqrt(n), s the spread of n "
         "observations; half of the noise takes four times the samples."
     ),
-    "exposure": "What is shown is tone(2^EV L): a step of 1 EV doubles the light. Files keep L.",
+    "exposure": "The display shows tone(2^EV L): a step of 1 EV doubles the light. Files keep L.",
     "roughness": (
         "The spread of microfacets: alpha = roughness^2 in the distribution of Trowbridge and "
         "Reitz (GGX). 0 is a mirror."

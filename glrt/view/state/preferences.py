@@ -44,16 +44,16 @@ class Preferences(Frozen):
     )
     temporal: Annotated[Temporal, Editable(FREE)] = Field(
         "reproject",
-        description="while the camera moves; reset: the picture begins anew; reproject: what was "
-        "shown follows the surfaces, until the new picture has samples enough; taa: an "
-        "exponential mean of what was shown, kept near the new picture; ataa: that, with more "
-        "samples where it fails; wrls: a line through "
-        "all that each pixel saw, and a mean of its neighbours",
+        description="what is shown while the camera moves; reset: only the new picture; "
+        "reproject: the previous picture, reprojected, until the new one has enough samples; taa: "
+        "an exponential mean of reprojected pictures, clamped to the new one; ataa: taa with more "
+        "samples where it fails; wrls: a line fitted to all samples of a pixel, and a mean of its "
+        "neighbours",
     )
     predictor: Annotated[Predictor, Editable(FREE)] = Field(
         "published",
-        description="of temporal wrls, what its line runs over; published: a mean that holds the "
-        "new sample, quick to follow; delayed: the mean before it, calmer and later",
+        description="predictor of temporal wrls; published: a mean with the new sample, follows "
+        "changes quickly; delayed: the mean before it, calmer and later",
     )
     mode: Annotated[Mode, Editable(FREE)] = Field(
         "orbit", description="orbit: a drag turns about the pivot; fly: about the camera"

@@ -32,5 +32,5 @@ def save_recent(recent: tuple[str, ...], file: Path) -> str:
         file.parent.mkdir(parents=True, exist_ok=True)
         write_text(file, json.dumps(recent, indent=2) + "\n")
     except (OSError, RenderError) as error:
-        return f"What was opened last cannot be kept: {error}"
+        return f"The list of recent files cannot be kept: {error}"
     return ""

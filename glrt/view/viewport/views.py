@@ -37,7 +37,7 @@ HELP = (
     "history: while light of earlier views is shown, the samples that each pixel stands for (by "
     "temporal wrls, views); grey where it has none\n"
     "weight: by temporal wrls, how much the new samples count\n"
-    "mask: by temporal ataa, where history fails; dark: filtered, green: traced beside history, "
+    "mask: by temporal ataa, where history fails; dark: filtered, green: traced, with history, "
     "yellow: traced alone; grey where history is shown\n"
     "probes: the picture with its probes as balls; each shows by direction the indirect light that "
     "it would bring to a white surface there, so that a leak is seen at once; those "

@@ -227,7 +227,7 @@ def _fit_glass(look: Look) -> None:
         look.unread.append("clearcoat over transmission")
     if isinstance(look.table["metallic"], dict):
         look.table["metallic"] = 0.0
-        look.unread.append("metallicRoughnessTexture beside transmission")
+        look.unread.append("metallicRoughnessTexture with transmission")
     if look.table["thin"]:
         make_pane(look)
 
