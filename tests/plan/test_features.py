@@ -14,7 +14,7 @@ import pytest
 
 from glrt.core.resources import folder
 from glrt.gpu import glsl
-from glrt.gpu.glsl import Source
+from glrt.gpu.glsl import Source, read
 from glrt.gpu.program import Kernel
 from glrt.plan.facts import MOST_NEAR, SPHERES_FROM, TREE_FROM, SceneFacts
 from glrt.plan.features import Needs, needs_of
@@ -211,6 +211,11 @@ def tenth(start: int) -> set[str]:
     while more := {it for flag in found for it in NEEDED_TOO.get(flag, ())} - found:
         found |= more
     return found
+
+
+def test_every_probe_has_one_place_in_the_shaders() -> None:
+    for file, expression, _ in (*PROBES.values(), ALWAYS):
+        assert read(file).count(expression) == 1, f"{expression} in {file}"
 
 
 MIXED = {f"tenth {start}": tenth(start) for start in range(10)}

@@ -38,15 +38,15 @@ def test_every_way_draws_the_same_bits(first: dict[str, Any], way: Way) -> None:
 
 
 @pytest.mark.slow
-def test_a_driver_that_rounds_elsewhere_draws_the_same_picture() -> None:
-    """Its noise too: paths part where a rounding decides, which is rare."""
+def test_another_driver_draws_the_same_picture() -> None:
+    """With its noise: paths part where a rounding decides, if any does."""
     needs_package(bool(find_library("EGL")), "libegl1")
     first, *others = (drawn(way, SHARE) for way in (WAYS[0], *WAYS[-2:]))
     are_others = all("zink" in str(found["renderer"]) for found in others)
     needs_package(are_others, "mesa-vulkan-drivers, and zink in libgl1-mesa-dri")
     for name in SHARE:
         compute, fragment = (difference(name, found, first) for found in others)
-        assert 0 < float(compute) < 1e-4
+        assert compute == "=" or float(compute) < 1e-4
         assert compute == fragment
         assert difference(name, others[1], others[0]) == "="
 

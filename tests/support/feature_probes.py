@@ -68,8 +68,8 @@ PROBES = {
     "HAS_LENS": ("integrators/camera.glsl", "camera.tan_lens * offset", "{} * offset"),
     "HAS_BACKGROUND": (
         "integrators/path.glsl",
-        "path.throughput * background(",
-        "{} * path.throughput * background(",
+        "path.throughput * radiance;",
+        "{} * path.throughput * radiance;",
     ),
     "HAS_HORIZON": ("lights/sky.glsl", "abs(direction.y) *", "{} * abs(direction.y) *"),
     "HAS_SUN": ("lights/sun.glsl", "direction - frame.sun", "direction - {} * frame.sun"),
