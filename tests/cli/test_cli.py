@@ -174,7 +174,13 @@ def test_error_not_reached_exits_1_with_the_picture(tmp_path: Path) -> None:
         (0.3, 0.4, 64, 16, "it is 0.4 after 64 samples."),
         (0.3, None, 1, 1, "it is unknown below 2 samples after 1 sample."),
         (0.3, None, 27, 16, "it is unknown below 32 samples (2 with --sampler independent) after"),
-        (0.25, 0.28, 64, 1, "its noise must be at most 0.25; it is 0.28"),
+        (
+            0.25,
+            0.28,
+            64,
+            1,
+            "after subtracting the bias of the method, its noise must be at most 0.25; it is 0.28",
+        ),
     ],
 )
 def test_an_error_not_reached_is_reported_as_it_was_asked_for(
