@@ -1,4 +1,4 @@
-// A thin lens, seen from the centre of which the scene is described.
+// Rays of a camera with a thin lens. The centre of the lens is the origin of the scene's coordinates.
 
 Ray camera_ray(Camera camera, vec2 size, vec2 pixel, precise inout Sampler rng) {
     precise vec2 jitter = next_2d(rng);
@@ -11,7 +11,7 @@ Ray camera_ray(Camera camera, vec2 size, vec2 pixel, precise inout Sampler rng) 
         precise vec2 disk = sample_disk(u);
         precise vec3 offset = disk.x * camera.right + disk.y * camera.up;
         origin = camera.lens_radius * offset;
-        direction -= camera.tan_lens * offset;  // still through the same point in focus
+        direction -= camera.tan_lens * offset;  // the ray still passes the same point in focus
     }
     precise vec3 unit_direction = normalized(direction);
     return Ray(origin, unit_direction, NO_SHAPE, false);

@@ -1,12 +1,12 @@
-// Links of particles to the camera, from a vertex that is not smooth: straight, or through one sphere. What they bring
-// is handed to `splat`.
+// Links of particles to the camera, from a vertex that is not smooth: straight, or through one sphere. `splat` takes
+// the value that a link brings.
 
-// The layer of the film that takes what reaches the camera after so many scattering events.
+// The layer of the film that takes light which reaches the camera after `length` scattering events.
 int layer_of(Particle self, int length) {
     return LAYERS == 0 ? 0 : min(BY_LENGTH ? length : self.layer, LAYERS - 1);
 }
 
-// The place on the film, in pixels of the frame, of a ray that reaches the camera at a place on the lens.
+// The place on the film, in pixels of the frame, of a ray that reaches the camera at the point `lens` of the lens.
 vec2 place_on_film(vec3 direction, vec2 lens) {
     precise vec3 d = direction / dot(direction, frame.camera.forward);
     precise float x = dot(d, frame.camera.right) + frame.camera.tan_lens * lens.x;
@@ -33,8 +33,8 @@ Eye sample_eye(precise inout Sampler rng) {
     return Eye(lens, position);
 }
 
-// Of a particle that is linked by a way with the density `rho`, P0 over what particles have; `turn`: that of this
-// vertex, as turn_of_link has it, above 0.
+// Weight of a particle that is linked by a way with the density `rho`: P0 over the density of particles. `turn`: the
+// turn of this vertex from turn_of_link, above 0.
 float weight_of_link(Particle self, float rho, float turn) {
     if (!(HAS_SHADING || HAS_GLOSSY)) return particle_weight(rho, self.kappa);
     precise float kappa = self.path.depth == 0 ? self.kappa / turn : self.kappa;
@@ -42,14 +42,14 @@ float weight_of_link(Particle self, float rho, float turn) {
     return particle_weight(turned, kappa);
 }
 
-// Whether a link leaves a vertex this way, in its frame; the ray then leaves on that side.
+// Whether a link may leave a vertex in the direction wi, given in the frame of the vertex. Sets the side of the ray.
 bool leaves_so(Vertex vertex, vec3 wi, precise inout Ray ray) {
     bool crosses = wi.z < 0.0;
     if (crosses) ray.inward = !ray.inward;
     return wi.z > 0.0 || crosses && is_rough_glass(vertex.material);
 }
 
-// Brings the eye what a particle scatters straight to it.
+// Links a particle straight to the eye and adds the light that it scatters there.
 void link_straight(Particle self, Meeting at, Eye eye) {
     precise Ray ray = at.ray;
     precise vec3 away = eye.position - ray.origin;
@@ -71,14 +71,14 @@ void link_straight(Particle self, Meeting at, Eye eye) {
     splat(place, value, layer_of(self, self.path.depth + 1));
 }
 
-// Where a way through a sphere meets it, on the side of the eye and on that of the vertex.
+// The two points where a way through a sphere meets it: `near` on the side of the eye, `far` on that of the vertex.
 struct Way {
     vec3 near;
     vec3 far;
     vec3 direction;  // unit, from the eye
 };
 
-// `sense` as sense_of has it.
+// `sense`: the result of sense_of.
 Way way_of(Arc arc, vec3 center, Crossing at, float sense) {
     precise vec2 sines = arc.ratios.xy * at.sine;
     precise vec2 cos_turn = at.cosine * at.cosines.xy + at.sine * sines;  // from the eye and from the vertex
@@ -92,7 +92,7 @@ Way way_of(Arc arc, vec3 center, Crossing at, float sense) {
     return Way(near, far, direction);
 }
 
-// Brings the eye what a particle scatters to it through one sphere, by one way that is drawn.
+// Links a particle to the eye through one sphere, by one way drawn at random, and adds the light.
 void link_through_sphere(Particle self, Meeting from, Eye eye, precise inout Sampler rng) {
     precise Ray ray = from.ray;
     precise vec2 pick = next_2d(rng);
@@ -118,7 +118,7 @@ void link_through_sphere(Particle self, Meeting from, Eye eye, precise inout Sam
     if (!leaves_so(from.vertex, wi, ray) || !is_seen) return;
     precise float film = pdf_camera(way.direction);
     precise float rho = pdf_of_way(film, material, arc, at, abs(wi.z)) / linked_this_way(material, arc, at);
-    if (rho == 0.0) return;  // no link: beside a kappa that is infinite it would have no weight
+    if (rho == 0.0) return;  // no link: with an infinite kappa its weight would be 0
     precise Turn turn = turn_of_link(from.vertex, from.normals, -self.path.ray.direction, ray.direction);
     if (turn.turn == 0.0) return;
     precise float weight = weight_of_link(self, rho / self.emission, turn.turn);
@@ -133,12 +133,11 @@ void link_through_sphere(Particle self, Meeting from, Eye eye, precise inout Sam
     splat(place, value, layer_of(self, self.path.depth + 2 + chords));
 }
 
-// Brings the camera what a particle scatters to it at a surface that is not smooth; `by_spheres`: through one of them,
-// too.
+// Links a particle to the camera at a surface that is not smooth. `by_spheres`: also through one of the linked spheres.
 void link_to_camera(Particle self, Meeting at, bool by_spheres, precise inout Sampler rng) {
     precise Eye eye = sample_eye(rng);
     link_straight(self, at, eye);
-    // A loop, for llvmpipe runs what an `if` is about in any case, but leaves out a loop that no lane enters.
+    // A loop, because llvmpipe runs the body of an `if` in any case, but leaves out a loop that no lane enters.
     int tries = LINKED != 0 && by_spheres ? 1 : 0;
     for (int i = 0; i < tries; ++i) link_through_sphere(self, at, eye, rng);
 }

@@ -1,8 +1,8 @@
 // Lighting models older than the rendering equation: light goes straight from lamp to surface to
 // eye, or over mirrors and glass. MODEL is 0 where paths are traced.
 //
-// Lamps are points in their centres for all but COOK, each with the power that its whole area
-// sends this way. The background is an even, unhidden light.
+// Lamps are points in their centres in all models except COOK. Each has the power that its whole area
+// sends in this direction. The background is an even light that nothing hides.
 
 const int PHONG = 1;    // no shadows; highlights around the mirrored direction (Phong 1975)
 const int BLINN = 2;    // the same around the half vector (Blinn 1977): the thesis's Appendix A
@@ -11,9 +11,9 @@ const int COOK = 4;     // a random point of a lamp, of the lens and of a lobe (
 
 const int MOST_EXPONENT = 16777216;  // 2^24
 
-// Whether light is followed beyond this surface. Glass divides it by a random choice, not by a
-// tree: the mean is the same, work does not double at each surface, and antialiasing takes many
-// samples a pixel anyway. Principled surfaces reflect lamps alone.
+// Whether light is followed beyond this surface. Glass divides light by a random choice and not by a
+// tree. The mean is the same, work does not double at each surface, and antialiasing takes many
+// samples a pixel anyway. Principled surfaces reflect only lamps.
 bool is_followed(Material material) {
     if (HAS_PRINCIPLED && material.kind == PRINCIPLED) return MODEL == 0;
     return MODEL == 0 || MODEL >= WHITTED && material.kind != MATTE;
@@ -32,14 +32,14 @@ float whole_power(float x, int n) {
     return result;
 }
 
-// The exponent of a half vector's highlight that is as wide as the GGX lobe. One around the
-// mirrored direction is as wide with a quarter of it, since its angle is twice the other.
+// The exponent of a half vector's highlight that is as wide as the GGX lobe. A highlight around the
+// mirrored direction is as wide with a quarter of this exponent, since its angle is twice as large.
 int highlight_exponent(float alpha) {
     precise float exponent = min(2.0 / (alpha * alpha), float(MOST_EXPONENT)) - 2.0;
     return max(int(exponent), 0);
 }
 
-// With the cosine, and scaled so that a white metal seen head-on reflects everything: the
+// The value contains the cosine. It is scaled so that a white metal seen head-on reflects everything: the
 // integrals are 2 PI / (m + 2) and 8 PI (2^(-n/2) + n) / ((n + 2) (n + 4)).
 float eval_highlight(float alpha, vec3 wo, vec3 wi) {
     int n = highlight_exponent(alpha);
@@ -68,8 +68,8 @@ vec3 eval_local(Vertex vertex, vec3 wi) {
 
 struct PointLamp {
     vec3 center;
-    float disk;    // area that a sphere shows; 0 for what is flat
-    vec3 facing;   // normal times area of what is flat; 0 for a sphere
+    float disk;    // area that a sphere shows; 0 for a flat lamp
+    vec3 facing;   // normal times area of a flat lamp; 0 for a sphere
     int material;
 };
 

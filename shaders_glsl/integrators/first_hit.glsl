@@ -1,18 +1,18 @@
 // Outputs of the first surface that a camera ray meets. A pass gathers one or two of them, FIRST_AOV
-// and SECOND_AOV; whole observations alone, so that none is carried from dispatch to dispatch.
+// and SECOND_AOV. It takes only whole observations, so that none is carried from dispatch to dispatch.
 
-// Of a sample that meets nothing: add_sample leaves it out, for it is not finite.
+// The value of a sample that meets nothing. It is not finite, so add_sample leaves it out.
 vec3 nothing_met() {
     return vec3(uintBitsToFloat(0x7F800000u));
 }
 
-// Glass takes no light: 1. Metal has its reflectance, a lamp its own albedo.
+// Albedo of a first surface. Glass takes no light: 1. Metal has its reflectance, a lamp its own albedo.
 vec3 albedo_of(Material material) {
     if (material.kind == DIELECTRIC || material.kind == PANE) return vec3(1.0);
     return head_on_reflectance(material);
 }
 
-// Albedo and normal are 0 where nothing is met: they count there, as denoisers want.
+// Albedo and normal are 0 where a ray meets nothing. These samples count, as denoisers expect.
 vec3 aov_of(int aov, Ray ray, Hit hit) {
     if (hit.shape == NO_SHAPE) return aov == DEPTH || aov == POSITION ? nothing_met() : vec3(0.0);
     precise Surface surface = surface_at(ray, hit);
@@ -23,10 +23,10 @@ vec3 aov_of(int aov, Ray ray, Hit hit) {
     return nothing_met();
 }
 
-// 1 + the number of the shape in the middle of the pixel, through the middle of the lens; 0 for none.
+// 1 + the number of the object in the middle of the pixel, seen through the middle of the lens; 0 for none.
 Pixel object_of(ivec2 place) {
     precise Ray ray = middle_ray(place);
-    leave_vertex(0u, 0);  // one number for all pixels: what is there in part is seen whole, or not at all
+    leave_vertex(0u, 0);  // one random number for all pixels: a partly transparent object is seen whole, or not at all
     precise Hit hit = HAS_HOLE ? solid_hit(ray, FAR, NO_SHAPE) : closest_hit(ray);
     precise Pixel pixel = empty_pixel();
     pixel.mean = vec3(hit.shape == NO_SHAPE ? 0.0 : float(1 + object_number(hit.shape)));
@@ -39,7 +39,7 @@ void add_aov(precise inout Pixel pixel, int aov, Ray ray, Hit hit, int index) {
     add_sample(pixel, loop_was_cut ? nothing_met() : aov_of(aov, ray, hit), index);
 }
 
-// `place`: pixel in the full frame. The object is found when the film is empty, and then kept.
+// `place`: pixel in the full frame. The object is found when the film is empty and kept from then on.
 void add_aovs(precise inout Pixel first, precise inout Pixel second, ivec2 place) {
     if (frame.is_empty != 0 && FIRST_AOV == OBJECT) first = object_of(place);
     if (frame.is_empty != 0 && SECOND_AOV == OBJECT) second = object_of(place);

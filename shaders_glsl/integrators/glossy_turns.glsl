@@ -1,18 +1,18 @@
-// Surfaces that are neither matte nor smooth, where densities differ from one way to the other. A path from the camera
-// that comes from wo takes light from wi by the value V(wo, wi), which has the cosine, and goes there with the density
-// p(wo, wi). A particle comes from wi and goes to wo as a path from the camera would, with the density p(wi, wo).
-// g is the true normal. What a particle carries on is the flux that arrives, which is spread by V, over its density:
+// Surfaces that are neither matte nor smooth. Their densities differ between the two directions of a path. A path from
+// the camera that comes from wo takes light from wi by the value V(wo, wi), which contains the cosine. It goes to wi
+// with the density p(wo, wi). A particle comes from wi and goes to wo as a path from the camera would, with the density
+// p(wi, wo). g is the true normal. A particle carries on the arriving flux, spread by V, over its density:
 //     V(wo, wi) |wo . g| / (|wi . g| p(wi, wo))
-// and P0 over PL (integrators/particle_weights.glsl) is the same with p(wo, wi) in place of V. Where it is linked to the
-// camera, there is no p(wi, wo), and PI stands for that of matte surfaces, which rho has:
+// P0 over PL (integrators/particle_weights.glsl) is the same with p(wo, wi) in place of V. A link to the camera has no
+// p(wi, wo); PI replaces it, because rho contains that factor of matte surfaces:
 //     V(wo, wi) / |wi . g|   and   PI p(wo, wi) / |wi . g|
-// Nothing here asks V to be the same both ways round; normals for shading are in V and p.
+// Nothing here requires a symmetric V. Normals for shading are contained in V and p.
 
 const bool HAS_GLOSSY = HAS_ROUGH_METAL || HAS_ROUGH_GLASS || HAS_PRINCIPLED;
 
 bool is_glossy(Material material) { return HAS_GLOSSY && material.kind != MATTE && !is_delta(material); }
 
-// What particles scatter at: not at surfaces of which a smooth coat or smooth facets are a part.
+// Whether particles scatter at a material. They do not where a smooth coat or smooth facets are part of the surface.
 bool carries_particles(Material material) {
     if (!(HAS_PRINCIPLED && material.kind == PRINCIPLED)) return true;
     precise Gloss gloss = gloss_at(material.details);
@@ -20,13 +20,13 @@ bool carries_particles(Material material) {
     return material.alpha > 0.0 && !is_smooth_coat;
 }
 
-// On the side of w, of normals on either side.
+// Normals on the side of w, from normals on either side.
 Normals normals_towards(Normals at, vec3 w) {
     precise float side = dot(w, at.facing) < 0.0 ? -1.0 : 1.0;
     return Normals(side * at.facing, side * at.shading);
 }
 
-// The same place for a path that comes from w; `at`: normals on the side of the vertex's wo.
+// The same vertex for a path that comes from w; `at`: normals on the side of the vertex's wo.
 Vertex vertex_from(Vertex vertex, Normals at, vec3 w) {
     bool crosses = dot(w, at.facing) < 0.0;
     precise Normals there = normals_towards(at, w);
@@ -35,7 +35,7 @@ Vertex vertex_from(Vertex vertex, Normals at, vec3 w) {
     return Vertex(frame, to_local(frame, w), vertex.material, vertex.is_outside != crosses, eta);
 }
 
-// V and p of a direction in the world, 0 where a path does not go so; `facing`: on the side of wo.
+// V and p of a direction wi of the world; 0 where no path goes there. `facing`: the true normal on the side of wo.
 ColorLobe lobe_towards(Vertex vertex, vec3 facing, vec3 wi) {
     precise vec3 local = to_local(vertex.frame, wi);
     bool crosses = local.z < 0.0;
@@ -46,14 +46,14 @@ ColorLobe lobe_towards(Vertex vertex, vec3 facing, vec3 wi) {
     return ColorLobe(value, pdf);
 }
 
-// What a link to the camera, or a scattering event, makes of the light of a particle, and of P0 over PL.
+// Factors of a link to the camera, or of a scattering event: of a particle's light, and of its P0 over PL.
 struct Turn {
     vec3 value;
     float turn;
 };
 
-// Of a link of what comes from wi to wo, at any surface that is not smooth; `at` as above, and the vertex's frame is
-// around the true normal.
+// Factors of a link of light that comes from wi and goes to wo, at any surface that is not smooth. `at`: see
+// vertex_from. The vertex's frame is around the true normal.
 Turn turn_of_link(Vertex vertex, Normals at, vec3 wi, vec3 wo) {
     if (!is_glossy(vertex.material)) {
         precise float turn = turn_towards(at, wi, wo, false);
@@ -67,8 +67,8 @@ Turn turn_of_link(Vertex vertex, Normals at, vec3 wi, vec3 wo) {
     return Turn(value, density);
 }
 
-// P0 over PL of a path from the camera that goes to wi; 0 where no particle does so. `is_linked`: whether particles
-// are linked to the camera here.
+// P0 over PL of a path from the camera that goes to wi; 0 where no particle takes this way. `is_linked`: whether
+// particles are linked to the camera here.
 float glossy_turn(Vertex vertex, Normals at, vec3 wi, bool is_linked) {
     precise vec3 wo = normalized(vertex.frame * vertex.wo);
     precise float density = lobe_towards(vertex, at.facing, wi).pdf;

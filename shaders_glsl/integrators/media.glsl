@@ -1,16 +1,17 @@
-// Between surfaces: glass that absorbs light, by Beer's law, and glasses that overlap.
+// The space between surfaces: glass that absorbs light by Beer's law, and glasses that overlap.
 //
-// Of glasses with a priority, which stand first among the rows of the struct Glass, highest first, MEDIA are
-// there. A path counts for each how many objects of it hold the path: in all of them, the first is the one
-// that is there (Schmidt and Budge, "Simple Nested Dielectrics in Ray Traced Images", JGT 2002).
+// MEDIA: the number of glasses with a priority. They stand first among the rows of the struct Glass, highest
+// priority first. For each of them, a path counts how many objects of this glass contain it. The first glass with
+// a count above 0 is the one around the path (Schmidt and Budge, "Simple Nested Dielectrics in Ray Traced Images",
+// JGT 2002).
 
-const int BITS_OF_COUNT = 5;  // of one glass: MOST_MEDIA of them in a word
+const int BITS_OF_COUNT = 5;  // bits for one glass: a word holds MOST_MEDIA of them
 
 bool is_medium(Material material) {
     return HAS_NESTED && material.kind == DIELECTRIC && material.details != NO_DETAILS && material.details < MEDIA;
 }
 
-// The counts after an outer or an inner face of this glass.
+// The counts after the path has crossed an outer (`enters`) or an inner face of this glass.
 uint counts_beyond(uint counts, int medium, bool enters) {
     uint one = 1u << uint(BITS_OF_COUNT * medium);
     uint own = counts >> uint(BITS_OF_COUNT * medium) & (1u << uint(BITS_OF_COUNT)) - 1u;
@@ -18,7 +19,7 @@ uint counts_beyond(uint counts, int medium, bool enters) {
     return own == 0u ? counts : counts - one;
 }
 
-// Its row, or NO_DETAILS in air.
+// The row of the glass around the path, or NO_DETAILS in air.
 int medium_of(uint counts) {
     return counts == 0u ? NO_DETAILS : findLSB(counts) / BITS_OF_COUNT;
 }
@@ -34,10 +35,11 @@ vec3 absorption_of_glass(int details) {
     return glass_at(details).absorption;
 }
 
-const float MOST_DEPTH = 87.0;  // what more leaves is no normal float
+const float MOST_DEPTH = 87.0;  // exp(-depth) beyond it is no normal float
 
-// exp(-depth), which differs between drivers: 2^-n times a polynomial of what the multiple n of ln 2 leaves,
-// at most half of that. Taylor's of degree 7 is right to 5e-9. ln 2 in two parts, the first of 9 bits.
+// exp(-depth), which differs between drivers: 2^-n times a polynomial of the rest. The rest is n ln 2 - depth, at
+// most half of ln 2 in size. Taylor's polynomial of degree 7 is right to 5e-9. ln 2 stands in two parts, the first
+// of 9 bits.
 float decay(float depth) {
     if (depth > MOST_DEPTH) return 0.0;
     precise float n = floor(depth * 1.44269504 + 0.5);
@@ -59,7 +61,7 @@ vec3 share_left(vec3 absorption, float distance) {
     return vec3(decay(depth.x), decay(depth.y), decay(depth.z));
 }
 
-// What is left of light from infinitely far away.
+// The share that is left of light from infinitely far away.
 vec3 share_left_of_sky(vec3 absorption) {
     return vec3(equal(absorption, vec3(0.0)));
 }

@@ -1,21 +1,21 @@
-// A path, from the camera or from a lamp, that meets a surface: what it needs to scatter there, and how it goes on.
+// A path, from the camera or from a lamp, meets a surface: the data to scatter there, and how the path goes on.
 
 struct Meeting {
     Vertex vertex;
     Normals normals;  // on the side that the path comes from
     Ray ray;          // leaves the surface, still in the direction of the path
     vec3 behind;      // absorption per unit length on the other side
-    uint beyond;      // counts of the glasses with a priority there
+    uint beyond;      // counts of the glasses with a priority on the other side
 };
 
-// The material of this sample: a principled surface with transmission is glass in part.
+// The material of this sample: a principled surface with transmission acts as glass in part of the samples.
 Material part_met(Material material, precise inout Sampler rng) {
     if (!HAS_TRANSMISSION || material.kind != PRINCIPLED) return material;
     precise Material part = met_part(material, next_1d(rng));
     return part;
 }
 
-// Absorption behind a surface; `enters`: whether that is its inside.
+// Absorption per unit length behind a surface; `enters`: whether the inside of the object lies behind it.
 vec3 absorption_behind(Path path, Material material, bool enters) {
     if (!HAS_ATTENUATION) return vec3(0.0);
     if (is_medium(material)) {
@@ -26,11 +26,11 @@ vec3 absorption_behind(Path path, Material material, bool enters) {
     return enters ? absorption_of_glass(material.details) : vec3(0.0);
 }
 
-// `by_shading`: the path scatters around the normal for shading, where that is possible; else around the true one.
+// `by_shading`: the path scatters around the normal for shading where that is possible; else around the true one.
 Meeting meet(Path path, Surface surface, Material material, bool by_shading) {
     precise vec3 direction = path.ray.direction;
     precise vec3 facing = true_normal(surface);
-    precise float side = dot(direction, facing) < 0.0 ? 1.0 : -1.0;  // 1: outer
+    precise float side = dot(direction, facing) < 0.0 ? 1.0 : -1.0;  // 1: the path meets the outer side
     facing *= side;
     precise vec3 shading = side * (HAS_NORMAL_MAP ? bent_normal(path.ray, surface) : surface.normal);
     precise mat3 frame = by_shading ? shading_frame(facing, shading, direction) : frame_around(facing);
@@ -45,7 +45,7 @@ Meeting meet(Path path, Surface surface, Material material, bool by_shading) {
     return Meeting(vertex, Normals(facing, shading), ray, behind, beyond);
 }
 
-// The path leaves the surface as it was scattered.
+// Sends the path on from the surface in the scattered direction.
 void leave(precise inout Path path, Meeting at, Scattering next) {
     precise Ray ray = at.ray;
     ray.direction = next.direction;
@@ -56,7 +56,7 @@ void leave(precise inout Path path, Meeting at, Scattering next) {
     path.depth += 1;
 }
 
-// Light that a segment of this length loses. A segment that meets glass from inside lay in that glass.
+// Takes the light away that a segment of length `distance` loses. A segment that meets glass from inside lay in it.
 void absorb(precise inout Path path, Material material, bool is_inside, float distance) {
     if (!HAS_ATTENUATION) return;
     bool is_glass = material.kind == DIELECTRIC && !is_medium(material);
@@ -64,14 +64,14 @@ void absorb(precise inout Path path, Material material, bool is_inside, float di
     path.throughput *= share_left(path.absorption, distance);
 }
 
-// Whether a surface of glass lies in another glass that stays around the path: nothing happens there.
+// Whether a surface of glass lies in another glass that stays around the path: then the surface has no effect.
 bool is_within_other_glass(Path path, Material material, bool enters) {
     if (!is_medium(material)) return false;
     uint beyond = counts_beyond(path.counts, material.details, enters);
     return medium_of(beyond) == medium_of(path.counts);
 }
 
-// The path goes on through such a surface. No light that was sampled has passed it.
+// The path goes on through such a surface. No sampled light has passed it, so pdf is 0.
 void pass_glass(precise inout Path path, Surface surface, Material material, bool enters) {
     record_passing(EVENT_PASSED_GLASS);
     path.counts = counts_beyond(path.counts, material.details, enters);

@@ -1,22 +1,22 @@
-// The first surface behind the middle of a pixel, through the middle of the lens: without random
-// numbers, so that it is the same in every frame (a G-buffer).
+// The first surface behind the middle of a pixel, seen through the middle of the lens (a G-buffer). It uses no random
+// numbers, so that it is the same in every frame.
 
-// position: relative to the eye, and 1 + the number of the object; where nothing is met, a unit
-// direction and 0; -1 where the driver cut the search.
+// position: relative to the eye, and 1 + the number of the object; where the ray meets nothing, a unit
+// direction and 0; where the driver cut the search, a unit direction and -1.
 // normal: unit, towards the eye, and the bits of passes/surface_flags.glsl.
 struct MiddleSurface {
     vec4 position;
     vec4 normal;
 };
 
-// In pixels, of a point at a depth along the view axis; 0 of a pinhole.
+// Radius of the circle of confusion, in pixels, of a point at a depth along the view axis; 0 for a pinhole.
 float circle_of_confusion(Camera camera, float depth, vec2 size) {
     precise float slope = camera.lens_radius / depth - camera.tan_lens;
     precise float radius = abs(slope) * size.y / (2.0 * camera.tan_y);
     return radius;
 }
 
-// Whether reflected or refracted directions stay together.
+// Whether reflected or refracted directions stay close together.
 bool is_specular(Material material) {
     if (material.kind == MATTE) return false;
     return material.kind == PANE || material.alpha < 0.25;
@@ -32,7 +32,7 @@ int surface_flags(Material material, float depth) {
 // `place`: pixel in the full frame.
 MiddleSurface middle_surface(ivec2 place) {
     precise Ray ray = middle_ray(place);
-    leave_vertex(0u, 0);  // one number for all pixels: what is there in part is seen whole, or not at all
+    leave_vertex(0u, 0);  // one random number for all pixels: a partly transparent object is seen whole, or not at all
     precise Hit hit = HAS_HOLE ? solid_hit(ray, FAR, NO_SHAPE) : closest_hit(ray);
     if (loop_was_cut) return MiddleSurface(vec4(ray.direction, -1.0), vec4(-ray.direction, 0.0));
     if (hit.shape == NO_SHAPE) return MiddleSurface(vec4(ray.direction, 0.0), vec4(-ray.direction, 0.0));

@@ -1,17 +1,17 @@
-// Particles: paths from the lamps. A particle is followed as a path from the camera is, but carries flux, which
+// Particles: paths from the lamps. A particle is followed like a path from the camera, but it carries flux, which
 // refraction does not scale.
 
 struct Particle {
-    Path path;       // throughput, and what lies around; no radiance
-    vec3 power;      // of the lamp, over the density of leaving it so
-    float emission;  // that density, as pdf_emission has it
-    float kappa;     // of its path, as particle_weights.glsl has it
-    float turn;      // P0 over PL of how it has scattered
+    Path path;       // throughput and the media around the path; no radiance
+    vec3 power;      // of the lamp, over the density `emission`
+    float emission;  // density of leaving the lamp this way, from pdf_emission
+    float kappa;     // of its path, see particle_weights.glsl
+    float turn;      // P0 over PL of its scattering events so far
     int light;
-    int layer;       // of its light group
+    int layer;       // of the light group of the lamp
 };
 
-// A point on a lamp, and the normal on the side that a particle leaves from.
+// A point on a lamp, and the normal on the side where a particle leaves.
 struct Leaving {
     vec3 position;
     vec3 normal;
@@ -50,7 +50,7 @@ Leaving place_on(Light light, vec2 u, bool back) {
     return Leaving(vec3(0.0), vec3(0.0), 0, true);
 }
 
-// Towards a ball, evenly over the cone that it fills; from inside of it, nowhere.
+// A direction towards a ball, drawn evenly over the cone that the ball fills; 0 from inside the ball.
 vec3 direction_to(Target ball, vec3 position, vec2 u) {
     precise vec3 away = ball.center - position;
     precise float drop = cone_of_sphere(away, ball.radius);
@@ -66,7 +66,7 @@ Path particle_path(Ray ray) {
     return path;
 }
 
-// Where light comes along the line through p before it meets the ball around the scene, or a plane.
+// The point where light on the line through p begins: before it meets the ball around the scene, or a plane.
 vec3 before_the_scene(vec3 p, vec3 direction) {
     precise float along = dot(p - frame.bounds_center, direction);
     precise vec3 start = p - (along + 2.0 * frame.bounds_radius) * direction;
@@ -83,7 +83,7 @@ vec3 before_the_scene(vec3 p, vec3 direction) {
     return start;
 }
 
-// `aim`: what it is aimed at, or NOT_AIMED.
+// `aim`: the number of the target, or NOT_AIMED.
 Particle start_from_sun(int aim, vec2 u, vec2 v) {
     precise vec3 towards = normalized(frame_around(frame.sun_direction) * sample_cone(frame.sun_versine, u));
     precise Target ball = Target(frame.bounds_center, frame.bounds_radius);
@@ -96,7 +96,7 @@ Particle start_from_sun(int aim, vec2 u, vec2 v) {
     return Particle(particle_path(ray), power, emission, 0.0, 1.0, SUN_LIGHT, SUN_LAYER);
 }
 
-// `aim` as above.
+// `aim`: see start_from_sun.
 Particle start_from_sky(int aim, vec2 v, precise inout Sampler rng) {
     precise vec3 towards = vec3(0.0);
     if (HAS_ENVIRONMENT) towards = sample_sky(Ray(vec3(0.0), vec3(0.0), NO_SHAPE, false), rng).ray.direction;

@@ -1,18 +1,18 @@
-// Three ways to the same light: scattering from the camera that meets a lamp, a point sampled on a lamp, and a
-// particle from a lamp that is linked to the camera. The power heuristic weighs them (Veach 1997, section 9.2), by
+// Three ways find the same light: scattering from the camera that meets a lamp, a point sampled on a lamp, and a
+// particle from a lamp that is linked to the camera. The power heuristic weighs them (Veach 1997, section 9.2) by
 // densities of whole paths: P0 of scattering, P1 of sampling, PL of particles.
 //
-// Matte surfaces and smooth ones scatter as likely one way as the other, per projected solid angle. So between the lamp
-// and the first surface that the camera sees, P0 and PL agree there, and one number a path says it all:
+// Matte and smooth surfaces scatter with the same density in both directions of a path, per projected solid angle. So
+// P0 and PL agree between the lamp and the first surface that the camera sees. One number a path is enough:
 //     P0 / PL = rho / pdf_emission,   rho = pdf_film / frame.particles
-//     P1 / P0 = kappa: of the density of sampling the lamp, over that of scattering to it, at the last vertex; 0
-//               where that is smooth
-// Where normals for shading or glossy surfaces break this, the ratios at the vertices that the path scatters at come in
-// as well: in the rho of a path from the camera, and in the turn of a particle (integrators/shading_normals.glsl,
-// glossy_turns.glsl).
-// Roulette is in neither, on both sides alike.
+//     P1 / P0 = kappa: the density of sampling the lamp over the density of scattering to it, at the last vertex;
+//               0 where that vertex is smooth
+// Normals for shading and glossy surfaces break this symmetry. Then the ratios at the vertices where the path scatters
+// are factors as well: of rho of a path from the camera, and of the turn of a particle
+// (integrators/shading_normals.glsl, glossy_turns.glsl).
+// The densities leave out roulette on both sides.
 
-// Density per solid angle of rays from the camera, over the whole frame, at their place on the lens.
+// Density of camera rays per solid angle, over the whole frame, at their point of the lens.
 float pdf_camera(vec3 direction) {
     precise float cosine = dot(direction, frame.camera.forward);
     if (cosine <= 0.0) return 0.0;
@@ -20,13 +20,13 @@ float pdf_camera(vec3 direction) {
     return pdf;
 }
 
-// The same per area of a surface that a ray meets, whose normal has this cosine.
+// The same density per area of a surface that the ray meets; `cosine`: between the ray and the surface's normal.
 float pdf_film(vec3 direction, float cosine, float distance) {
     precise float pdf = pdf_camera(direction) * cosine / (distance * distance);
     return pdf;
 }
 
-// Of a sampled point: P1^2 over the sum of squares. `scattered`: the density of scattering to it.
+// Weight of a sampled point: P1^2 over the sum of squares. `scattered`: the density of scattering to it.
 float sample_beside_particles(LightSample light, float scattered, float rho) {
     precise vec3 point = light.ray.origin;
     if (!SKY_SENDS && light.light != SUN_LIGHT) point += light.distance * light.ray.direction;
@@ -39,8 +39,7 @@ float sample_beside_particles(LightSample light, float scattered, float rho) {
     return weight;
 }
 
-// Of emission that scattering met, with the density `pdf`, 0 where it was smooth: P0^2 over the sum of squares.
-// `kappa`: P1 / P0.
+// Weight of emission that scattering met: P0^2 over the sum of squares. `kappa`: P1 / P0.
 float emission_beside_particles(Ray ray, Hit hit, int light, float kappa, float rho) {
     precise vec3 point = ray.origin + hit.distance * ray.direction;
     precise float over = pdf_emission(light, point, -ray.direction, NOT_AIMED) / rho;
@@ -48,9 +47,9 @@ float emission_beside_particles(Ray ray, Hit hit, int light, float kappa, float 
     return weight;
 }
 
-// Of a particle linked to the camera: PL^2 over the sum of squares. `over`: P0 / PL.
+// Weight of a particle linked to the camera: PL^2 over the sum of squares. `over`: P0 / PL.
 float particle_weight(float over, float kappa) {
-    precise float both = over * kappa;  // P1 / PL: kappa alone may be beyond what has a square
+    precise float both = over * kappa;  // P1 / PL: the square of kappa alone may overflow
     precise float weight = 1.0 / (1.0 + over * over + both * both);
     return weight;
 }

@@ -1,6 +1,6 @@
-// Particles on their way, linked to the camera at every surface that they meet and that is not smooth.
+// Particles on their way. They are linked to the camera at every surface that they meet and that is not smooth.
 
-const float KEEP = 2.0;  // as ends_at_random has it: a link of a particle costs the same, however little it brings
+const float KEEP = 2.0;  // `keep` of ends_at_random: a link costs the same, however little light it brings
 
 // P1 / P0 of a particle at the first surface that it meets, as if that were matte; `distance`: from its lamp.
 float kappa_of(int light, Meeting at, float distance) {
@@ -15,19 +15,19 @@ float kappa_of(int light, Meeting at, float distance) {
     return kappa;
 }
 
-// Whether a path from the camera that comes from where a particle goes scatters around that normal, to where the
-// particle comes from.
+// Whether a path from the camera that arrives from `next.direction` scatters around this normal (`is_flat`: the true
+// one), to where the particle comes from.
 bool goes_back(Scattering next, Normals normals, bool is_flat) {
     if (next.weight == vec3(0.0)) return false;
     bool crosses = dot(next.direction, normals.facing) < 0.0;
     return crosses == next.crosses && is_flat_towards(normals, next.direction) == is_flat;
 }
 
-// Glossy surfaces scatter particles as paths from the camera. So do smooth glass and metal, in the one or two directions
-// from which paths from the camera come to where the particle comes from: some of these scatter around the true normal,
-// which `vertex` has, some around the other one.
+// Glossy surfaces scatter particles as they scatter camera paths. Smooth glass and metal send a particle to the
+// one or two directions from which paths from the camera scatter to where the particle comes from. Some of these paths
+// scatter around the true normal, which `met` has, and some around the normal for shading.
 Scattering scatter_particle(Vertex met, Normals normals, precise inout Sampler rng) {
-    precise Vertex vertex = met;  // a struct made of its own fields keeps glslang 12 searching for ever
+    precise Vertex vertex = met;  // a copy: glslang 12 never ends on a struct that is made of its own fields
     if (is_glossy(met.material)) vertex = vertex_from(met, normals, met.frame * met.wo);
     precise Scattering flat_one = sample_material(vertex, rng);
     if (!HAS_SHADING || !is_delta(vertex.material) || normals.shading == normals.facing) return flat_one;
@@ -46,12 +46,12 @@ Scattering scatter_particle(Vertex met, Normals normals, precise inout Sampler r
     return bent_one;
 }
 
-// What scattering makes of its flux and of its weight.
+// Applies a scattering event to the flux and to the weight of a particle.
 void turn_particle(precise inout Particle self, Vertex vertex, Normals normals, Scattering next) {
     precise vec3 wi = -self.path.ray.direction;
     precise vec3 share = next.weight;
     precise float turn = 1.0;
-    precise float unlike_matte = 1.0;  // P0 over that of a matte surface, which kappa_of has
+    precise float unlike_matte = 1.0;  // P0 over that of a matte surface, which kappa_of assumes
     if (is_glossy(vertex.material)) {
         precise Turn linked = turn_of_link(vertex, normals, wi, next.direction);
         precise float leaving = dot(next.direction, normals.facing);
@@ -70,7 +70,7 @@ void turn_particle(precise inout Particle self, Vertex vertex, Normals normals, 
     if (self.path.depth == 0 && turn > 0.0) self.kappa /= unlike_matte;
 }
 
-// Whether a particle comes from what is seen of its lamp, in a place that the lamp may share; `back` goes there.
+// Whether a particle comes from a visible part of its lamp, which may share its place with others; `back` goes there.
 bool is_from_seen(Particle self, Ray back) {
     if (self.light < 0) return true;
     int lamp = light_at(self.light).shape;
@@ -78,7 +78,7 @@ bool is_from_seen(Particle self, Ray back) {
     return shows(back, lamp);
 }
 
-// Follows one segment; false when the particle ends with it. `by_spheres`: as link_to_camera has it.
+// Follows one segment; false when the particle ends with it. `by_spheres`: see link_to_camera.
 bool extend_particle(precise inout Particle self, bool by_spheres, precise inout Sampler rng) {
     precise vec3 direction = self.path.ray.direction;
     precise Hit hit = closest_hit(self.path.ray);
@@ -113,8 +113,8 @@ bool extend_particle(precise inout Particle self, bool by_spheres, precise inout
     return true;
 }
 
-// The particles of one lane: as many as there are samples of a pixel. Returns how many are lost because the driver
-// ended a loop early. One loop over the segments of all, as in add_samples.
+// Traces the particles of one lane: as many as a pixel has samples. Returns how many are lost because the driver
+// ended a loop early. One loop runs over the segments of all particles, as in add_samples.
 int add_particles(int lane, bool by_spheres) {
     int index = frame.first_sample;
     int end = index + frame.sample_count;

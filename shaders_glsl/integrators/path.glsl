@@ -1,17 +1,17 @@
 // One path from the camera: radiance in linear sRGB.
 //
-// Emission found by scattering and emission sampled on lamps are the same light; METHOD says how
-// they share it. naive: scattering alone. nee: sampling, where its density is not 0. mis: both,
-// weighted by the power heuristic (Veach 1997, eq. 9.14). The other methods end where light is not
-// followed (integrators/classic.glsl).
+// Scattering that meets a lamp and sampling of lamps find the same light; METHOD says how they share
+// it. naive: scattering alone. nee: sampling, where its density is not 0. mis: both, weighted by the
+// power heuristic (Veach 1997, eq. 9.14). The other methods end where light is not followed
+// (integrators/classic.glsl).
 
-// Of light sampled on a lamp; `scattered`: the density with which scattering would have met it.
+// Weight of light sampled on a lamp; `scattered`: the density with which scattering would have met it.
 float weight_of_sample(LightSample light, float scattered, float rho) {
     if (HAS_PARTICLES && rho > 0.0) return sample_beside_particles(light, scattered, rho);
     return power_heuristic(light.pdf, scattered);
 }
 
-// The share of emission that scattering may count. `pdf`: density of the scattered ray; 0 if it
+// The share of emission that scattering may count. `pdf`: density of the scattered ray; 0 if the ray
 // comes from the camera or a delta.
 float emission_weight(Ray ray, Hit hit, int light, float pdf, float lamps) {
     if (!SAMPLE_LIGHTS || light == NO_LIGHT || pdf == 0.0) return 1.0;
@@ -22,7 +22,7 @@ float emission_weight(Ray ray, Hit hit, int light, float pdf, float lamps) {
     return weight;
 }
 
-// Direct light from one sampled point, scattered towards wo; `rho` as Path has it.
+// Direct light from one sampled point, scattered towards wo; `rho`: see Rivals.
 vec3 direct_light(Vertex vertex, LightSample light, float rho) {
     if (light.pdf == 0.0 || is_dark(light)) return vec3(0.0);
     precise vec3 wi = to_local(vertex.frame, light.ray.direction);
@@ -44,12 +44,13 @@ vec3 direct_light(Vertex vertex, LightSample light, float rho) {
     return radiance;
 }
 
-// Of paths from the camera: to end those below 1/4 saves more time than it adds variance (docs/results/speed.md).
+// Roulette of paths from the camera. To end paths below a throughput of 1/4 saves more time than it adds variance
+// (docs/results/speed.md).
 bool roulette_ends(precise inout vec3 throughput, precise inout Sampler rng) {
     return ends_at_random(throughput, 4.0, rng);
 }
 
-// Where a model of the classic models ends: the light of the lamps and of an unhidden sky.
+// The end of a path in the classic models: adds the light of the lamps and of a sky that nothing hides.
 void shade(precise inout Path path, Vertex vertex, Ray from, precise inout Sampler rng) {
     precise vec3 weight = path.scale * path.throughput;
     if (HAS_BACKGROUND) {
@@ -80,7 +81,7 @@ void pass_hole(precise inout Path path, Surface surface, float distance) {
     path.ray = beyond(path.ray, surface);
 }
 
-// `emission_weight` of what a segment meets, which may have passed holes.
+// `emission_weight` of the emission that a segment meets. The segment may have passed holes.
 float weight_of_emission(Path path, Hit hit, int light) {
     if (HAS_PARTICLES && path.rivals.rho > 0.0 && light != NO_LIGHT) {
         precise float kappa = 0.0;
@@ -94,8 +95,8 @@ float weight_of_emission(Path path, Hit hit, int light) {
     return emission_weight(path.passed.start, met, light, path.pdf, path.lamps);
 }
 
-// Light of a sample, scattered where the path meets a surface. `source`: the object that shines, or FROM_BACKGROUND or
-// FROM_SUN.
+// Adds light of a sample, scattered where the path meets a surface. `source`: the object that shines, or
+// FROM_BACKGROUND or FROM_SUN.
 void gather_sampled(precise inout Path path, Meeting at, LightSample light, int source) {
     precise float height = dot(light.ray.direction, at.normals.facing);
     precise float along = dot(light.ray.direction, at.vertex.frame[2]);
@@ -124,7 +125,7 @@ float sky_weight(Path path) {
     return weight;
 }
 
-// The sky, where a path leaves the scene.
+// Adds the light of the sky where a path leaves the scene.
 void gather_sky(precise inout Path path) {
     if (!HAS_BACKGROUND) return;
     precise vec3 radiance = background(path.ray.direction);
@@ -135,7 +136,7 @@ void gather_sky(precise inout Path path) {
     gather(path, light, BACKGROUND_LAYER, path.depth);
 }
 
-// The sun, where a path leaves the scene towards it.
+// Adds the light of the sun where a path leaves the scene towards it.
 void gather_sun(precise inout Path path) {
     if (!HAS_SUN || !meets_sun(path.ray.direction)) return;
     precise vec3 light = path.scale * path.throughput * frame.sun_radiance;
@@ -154,8 +155,8 @@ void gather_sun(precise inout Path path) {
     gather(path, light, SUN_LAYER, path.depth);
 }
 
-// Direct light where the path meets a surface, by a sample of each kind of light. `resamples`: lamps are candidates of a
-// reservoir.
+// Adds direct light where the path meets a surface, by one sample of each kind of light. `resamples`: lamps are
+// candidates of a reservoir.
 void gather_direct(precise inout Path path, Meeting at, bool resamples, precise inout Sampler rng) {
     if (is_delta(at.vertex.material)) return;
     if (SAMPLE_LIGHTS) {
@@ -173,7 +174,7 @@ void gather_direct(precise inout Path path, Meeting at, bool resamples, precise 
     }
 }
 
-// Emission of the surface that the path meets.
+// Adds the emission of the surface that the path meets.
 void gather_emission(precise inout Path path, Surface surface, Material material, float share) {
     precise vec3 emission = emitted(material, -path.ray.direction, dot(path.ray.direction, true_normal(surface)) < 0.0);
     if (is_candidate(emission)) {
@@ -185,12 +186,12 @@ void gather_emission(precise inout Path path, Surface surface, Material material
     gather(path, light, material.layer, path.depth);
 }
 
-// Whether a normal for shading scatters the path through the surface, or back where it should cross.
+// Whether the path is lost: a normal for shading scatters it through the surface, or back where it should cross.
 bool is_lost(Meeting at, Scattering next) {
     return HAS_SHADING && (dot(next.direction, at.normals.facing) < 0.0) != next.crosses;
 }
 
-// Scatters at a surface, after gathering direct light there; false when the path ends.
+// Gathers direct light at a surface, then scatters the path there; false when the path ends.
 bool scatter_path(precise inout Path path, Surface surface, Material whole, precise inout Sampler rng) {
     leave_vertex(rng.seed, path.depth + 1);
     precise Material material = part_met(whole, rng);

@@ -1,13 +1,14 @@
-// What a path from the camera keeps of particles that carry the same light: rho of particle_weights.glsl.
+// State of a path from the camera for particles that carry the same light: rho of particle_weights.glsl.
 
-// Whether particles are linked to the camera at a vertex: the first that is not smooth, straight or by the path's chain.
+// Whether particles are linked to the camera at a vertex. This is the first vertex that is not smooth; the link is
+// straight, or goes through the sphere of the path's chain.
 bool links_at(Path path, Vertex vertex) {
     bool is_first = path.depth == 0 || LINKED != 0 && path.rivals.chain.state != BROKEN;
     return HAS_PARTICLES && is_first && !is_delta(vertex.material);
 }
 
-// What particles that are linked to the camera at the path's first vertex are weighed against: none are, or
-// come so far, at a surface that they do not scatter at.
+// rho of the path beyond a surface. It is 0 where no particles are linked to the camera at the path's first vertex, or
+// where particles do not come so far: they do not scatter at this surface.
 float rho_beyond(Path path, Meeting at) {
     if (!HAS_PARTICLES) return path.rivals.rho;
     if (!carries_particles(at.vertex.material)) return 0.0;

@@ -1,34 +1,34 @@
-// A path on its way: what every path has, and what single features know of it.
+// State of a path on its way: the data of every path, and the data that single features add.
 
-// Holes that the present segment has passed.
+// The holes that the present segment has passed.
 struct Passed {
     uint holes;
     Ray start;  // the segment, where it left the vertex
-    float way;  // from there to the last hole
+    float way;  // distance from there to the last hole
 };
 
 // Particles that carry the same light as the path (integrators/particle_weights.glsl).
 struct Rivals {
-    float rho;    // what they are weighed against; 0: none come
-    Chain chain;  // of smooth spheres that the path met first
+    float rho;    // particles are weighed against it; 0: no particles come
+    Chain chain;  // smooth spheres that the path met first
 };
 
-// Probes, in place of the rest of the path.
+// Probes, which replace the rest of the path.
 struct Asking {
-    bool is_due;   // whether the next matte surface asks them
-    bool is_done;  // whether they were asked: the next segment is the last
+    bool is_due;   // whether the next matte surface asks probes
+    bool is_done;  // whether probes were asked: the next segment is the last
 };
 
 struct Path {
     Ray ray;          // its next segment
     vec3 throughput;
-    float scale;      // of radiance by refraction, which roulette ignores
+    float scale;      // scale of radiance by refraction, which roulette ignores
     vec3 radiance;    // gathered so far
-    float pdf;        // of the last scattering; 0 if it was a delta, or none yet
-    float lamps;      // weight of all that are sampled, where it scattered last
+    float pdf;        // density of the last scattering; 0 if it was a delta, or none yet
+    float lamps;      // total weight of all lamps that are sampled, where the path scattered last
     int depth;        // scattering events so far
     vec3 absorption;  // of the glass that its next segment lies in
-    uint counts;      // of the glasses with a priority there
+    uint counts;      // counts of the glasses with a priority there
     Passed passed;
     Rivals rivals;
     Asking asking;
@@ -44,8 +44,9 @@ Path start_path(Ray ray) {
     return Path(ray, vec3(1.0), 1.0, vec3(0.0), 0.0, 0.0, 0, absorption, counts, passed, rivals, asking, NO_LAYERS);
 }
 
-// Light of a lamp that is `length` scattering events from the camera; `group` is its layer. What a probe sees shine
-// is direct light of what it lights, which paths find.
+// Adds light of a lamp that is `length` scattering events from the camera; `group` is its layer. A path of a probe
+// leaves out emission that the probe itself sees: for a surface that the probe lights, this is direct light, which
+// paths find.
 void gather(precise inout Path path, vec3 light, int group, int length) {
     if (FROM_PROBES && length == 0) return;
     path.radiance += light;

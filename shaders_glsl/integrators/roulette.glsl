@@ -1,8 +1,8 @@
-// Russian roulette: paths that carry little end at random.
+// Russian roulette: paths of low throughput end at random.
 
-// Divides the survivors' throughput by their chance: another variance, the same mean. It applies
-// once the throughput is below 1 / keep. Chances are multiples of 2^-16, which random numbers of 20 bits, as Sobol's are,
-// meet exactly.
+// Division of the survivors' throughput by their chance keeps the mean and changes the variance. It applies once
+// the throughput is below 1 / keep. Chances are multiples of 2^-16, so that random numbers of 20 bits, as of Sobol
+// sequences, meet them exactly.
 const float CHANCES = 65536.0;
 
 bool ends_at_random(precise inout vec3 throughput, float keep, precise inout Sampler rng) {

@@ -4,22 +4,22 @@ Path camera_path(ivec2 place, precise inout Sampler rng) {
     return start_path(camera_ray(frame.camera, vec2(frame.size), vec2(place), rng));
 }
 
-// In place of radiance, where COUNT_RAYS.
+// Count of rays of a sample, which replaces radiance where COUNT_RAYS.
 vec3 rays_of_sample() {
     precise vec3 rays = vec3(rays_so_far);
     rays_so_far = 0.0;
     return rays;
 }
 
-// What a sample adds: its radiance, or how often its path has scattered before it ended.
+// The value that a sample adds: its radiance, its count of rays, or its count of scattering events.
 vec3 value_of(Path path) {
     if (COUNT_RAYS) return rays_of_sample();
     return COUNT_BOUNCES ? vec3(float(path.depth)) : path.radiance;
 }
 
 // One loop over the segments of all paths: a lane whose path has ended starts its next sample at
-// once, and does not wait for its neighbours. `place`: pixel in the full frame. Returns how many
-// samples are lost because the driver ended a loop early: this one, or one that a ray ran.
+// once and does not wait for its neighbours. `place`: pixel in the full frame. Returns how many
+// samples are lost because the driver ended a loop early: this loop, or one of a ray.
 int add_samples(precise inout Pixel pixel, precise inout Layers layers, ivec2 place) {
     int index = frame.first_sample;
     int end = index + frame.sample_count;

@@ -1,28 +1,29 @@
-// Links through one sphere: the ways of light between a vertex and the eye by one reflection outside a smooth sphere, or
-// through a ball of glass by two refractions with 0 or 1 reflections between them. LINKED: a bit for each sphere that
-// has them, by its number; nothing lies within it (glrt/plan/particles.py).
+// Links through one sphere: the ways of light between a vertex and the eye by one reflection outside a smooth sphere,
+// or through a ball of glass by two refractions with 0 or 1 reflections between them. LINKED: a bit for each sphere
+// that has links, by its number; nothing lies within such a sphere (glrt/plan/particles.py).
 //
-// All of a link lies in the plane of the eye, the vertex and the centre, and the angle of incidence t is its one
-// unknown. Seen from the centre the way turns, beside half a turn for each chord, by
+// A link lies in the plane of the eye, the vertex and the centre. The angle of incidence t is its one unknown. Seen
+// from the centre, the way turns by D(t), not counting half a turn for each chord:
 //     D(t) = 2 t - asin(ke sin t) - asin(kv sin t) - 2 chords asin(sin t / ior),
-// ke, kv: the radius over the distances of eye and vertex. Light goes that way where D is psi or -psi, the angle
-// between eye and vertex (an odd number of chords: between the eye and the opposite of the vertex). Each asin(k sin t)
-// with k < 1 is concave in t, so D is convex: from 0 it rises at once and meets psi once at most; or it falls first,
-// meets -psi falling and rising, and psi after that. Its slope is at most 2, so that no angle is a whole turn off.
+// ke, kv: the radius over the distances of eye and vertex. Light takes that way where D is psi or -psi. psi is the
+// angle between eye and vertex (for an odd number of chords: between the eye and the opposite of the vertex). Each
+// asin(k sin t) with k < 1 is concave in t, so D is convex. Either D rises from 0 at once and meets psi at most once;
+// or it falls first, meets -psi falling and rising, and then meets psi. Its slope is at most 2, so that no angle is
+// off by a whole turn.
 
 const int MOST_CHORDS = 2;
-const float REFLECTED = 0.125;    // share of links of glass by reflection outside, and of those by one inside
-const float FLAT = 0.0625;        // least |dD/dt| of a link: where the image folds over, paths from the camera serve
-const float CLOSE = 0.0009765625; // 2^-10 radians: a step of Newton's method further, D is met as floats can
-const int ROUNDS = 12;            // of these steps, at most
+const float REFLECTED = 0.125;    // share of links of glass by a reflection outside, and share by one inside
+const float FLAT = 0.0625;        // least |dD/dt| of a link: camera paths serve where the image folds over
+const float CLOSE = 0.0009765625; // 2^-10 radians: one Newton step from there meets D as well as floats can
+const int ROUNDS = 12;            // Newton steps, at most
 
-// What a sphere has of links.
+// Geometry of the links between an eye, a vertex and a sphere.
 struct Arc {
     vec3 to_eye;     // unit, from the centre
     vec3 to_vertex;  // unit, from the centre
-    vec3 ratios;     // sines at the eye, at the vertex and inside, over that of the angle of incidence
+    vec3 ratios;     // sines at the eye, at the vertex and inside, over the sine of the angle of incidence
     float radius;
-    float cosine;    // of the angle between the two
+    float cosine;    // of the angle between to_eye and to_vertex
     float sine;
     int chords;
 };
@@ -44,7 +45,8 @@ float first_slope(Arc arc) {
     return slope;
 }
 
-// Whether eye and vertex lie outside the sphere, not in line with its centre, and D falls by less than half a turn.
+// Whether links may exist: eye and vertex lie outside the sphere and not in line with its centre, and D falls by less
+// than half a turn.
 bool has_links(Arc arc) {
     return arc.ratios.x < 1.0 && arc.ratios.y < 1.0 && arc.sine > 0.0 && first_slope(arc) > -2.0;
 }
@@ -54,7 +56,7 @@ float cosine_of(float sine) {
     return cosine;
 }
 
-// Cosines where the way meets the eye, the vertex, and the sphere from inside.
+// Cosines of the angles at which the way meets the eye, the vertex, and the sphere from inside.
 vec3 cosines_along(Arc arc, float sine) {
     precise vec3 s = arc.ratios * sine;
     precise vec3 cosines = sqrt(max((1.0 - s) * (1.0 + s), 0.0));
@@ -68,7 +70,7 @@ float slope_of(Arc arc, vec3 cosines, float cosine) {
     return slope;
 }
 
-// An angle of incidence, by the tangent of its half.
+// An angle of incidence, given by the tangent of its half.
 struct Incidence {
     float half_tangent;
     float sine;
@@ -95,10 +97,10 @@ struct Branch {
     bool falls;
 };
 
-// Of the turn about the centre: 1 from the eye towards the vertex, -1 the other way round.
+// Sense of the turn about the centre: 1 from the eye towards the vertex, -1 the other way round.
 float sense_of(Branch branch, int chords) { return chords == 1 ? -branch.sign : branch.sign; }
 
-// D less the angle of a branch; of more than a few degrees too little, by a third at half a turn.
+// D less the angle of a branch. Beyond a few degrees the result is too small, by a third at half a turn.
 float miss_of(Arc arc, Incidence at, vec3 cosines, Branch branch) {
     precise vec3 sines = arc.ratios * at.sine;
     precise vec2 half_way = vec2(at.cosine, at.sine);
@@ -115,9 +117,9 @@ float miss_of(Arc arc, Incidence at, vec3 cosines, Branch branch) {
     return miss;
 }
 
-// The half tangent where D meets the angle of a branch; -1: nowhere. Newton's method from the end of the convex
-// curve goes towards the angle and not beyond, by steps that are too short if anything; where the slope has turned
-// before it comes there, there is none.
+// The half tangent of t where D meets the angle of a branch; -1: nowhere. Newton's method starts at the end of the
+// convex curve. It goes towards the angle and not beyond, since its steps are never too long. There is no solution
+// if the slope changes its sign before the method gets there.
 float meeting_of(Arc arc, Branch branch) {
     precise float m = branch.falls ? 0.0 : 1.0;
     precise float found = -1.0;
@@ -137,9 +139,9 @@ float meeting_of(Arc arc, Branch branch) {
     return found;
 }
 
-// Where a way meets the sphere.
+// Angles where a way meets the sphere.
 struct Crossing {
-    vec3 cosines;  // as cosines_along has them
+    vec3 cosines;  // from cosines_along
     float sine;    // of the angle of incidence
     float cosine;
     float slope;   // dD / dt
@@ -154,14 +156,14 @@ Crossing crossing_of(Arc arc, float sine) {
 // Solid angle at the eye over area at the vertex, across the ray; 0: no link.
 float spread_of(Arc arc, Crossing at) {
     precise float over = at.cosines.x * at.cosines.y * arc.sine * abs(at.slope);
-    bool is_finite_there = over > 0.0 && over < FAR;  // not where a way leaves along the sphere
+    bool is_finite_there = over > 0.0 && over < FAR;  // false where a way leaves along the sphere
     if (!is_finite_there || abs(at.slope) < FLAT || !has_links(arc)) return 0.0;
     precise float across = arc.ratios.x * arc.ratios.y / arc.radius;
     precise float spread = across * across * at.sine * at.cosine / over;
     return spread;
 }
 
-// How likely a path that meets the sphere goes this way: Fresnel's share at each surface.
+// The probability that a path which meets the sphere takes this way: Fresnel's share at each surface.
 float chance_of(Material material, Crossing at, int chords) {
     if (!(HAS_DIELECTRIC && material.kind == DIELECTRIC)) return 1.0;
     precise float reflected = fresnel(at.cosine, 1.0 / material.ior);
@@ -170,7 +172,7 @@ float chance_of(Material material, Crossing at, int chords) {
     return chance;
 }
 
-// What is left of light on this way, beside its chance: the colour of a mirror, or what glass does not absorb.
+// Share of light that this way leaves, without its chance: the colour of a mirror, or the transmittance of glass.
 vec3 tint_of(Material material, Arc arc, Crossing at) {
     if (!(HAS_DIELECTRIC && material.kind == DIELECTRIC)) return metal_reflectance(material, at.cosine);
     if (!HAS_ATTENUATION) return vec3(1.0);
@@ -178,14 +180,14 @@ vec3 tint_of(Material material, Arc arc, Crossing at) {
     return share_left(absorption_of_glass(material.details), inside);
 }
 
-// A link that is tried is of one sphere, drawn evenly; then the number of its chords is drawn, and one of the branches
-// that may be there.
+// A link is tried through one sphere, drawn evenly. Then the number of its chords is drawn, and one of the branches
+// that may exist.
 int draw_chords(Material material, float u) {
     bool is_glass = HAS_DIELECTRIC && material.kind == DIELECTRIC;
     return !is_glass || u < REFLECTED ? 0 : u < 1.0 - REFLECTED ? 1 : 2;
 }
 
-// The share of draws of one sphere with so many chords.
+// The share of draws that take one sphere with `chords` chords.
 float share_of_draws(Material material, int chords) {
     precise float share = 1.0 / float(bitCount(LINKED));
     if (!(HAS_DIELECTRIC && material.kind == DIELECTRIC)) return share;
@@ -193,7 +195,7 @@ float share_of_draws(Material material, int chords) {
     return share;
 }
 
-// Where D falls first, half of the draws are of the branch that does.
+// Where D falls first, half of the draws take the falling branch, and SIDE of them each of the other two.
 const float SIDE = 0.25;
 
 Branch draw_branch(Arc arc, float u) {
@@ -205,8 +207,8 @@ float share_of_branch(Arc arc, bool falls) {
     return first_slope(arc) >= 0.0 ? 1.0 : falls ? 0.5 : SIDE;
 }
 
-// Density of a way from the camera, on the film and per area of the vertex, which it meets with this cosine; `film`: that
-// of the ray, per solid angle.
+// Density of a way from the camera, on the film and per area of the vertex. `cosine`: between the way and the normal of
+// the vertex. `film`: density of the ray per solid angle.
 float pdf_of_way(float film, Material material, Arc arc, Crossing at, float cosine) {
     precise float pdf = film * cosine * spread_of(arc, at) * chance_of(material, at, arc.chords);
     return pdf;
@@ -221,7 +223,7 @@ float linked_this_way(Material material, Arc arc, Crossing at) {
 
 // --- the camera's side -----------------------------------------------------------------------
 
-// What a path from the camera has met before the first vertex that is no delta.
+// The smooth spheres that a path from the camera has met before its first vertex that is no delta.
 struct Chain {
     int state;
     int sphere;
@@ -232,9 +234,9 @@ struct Chain {
 };
 
 const int UNBROKEN = 0;  // no vertex yet
-const int INSIDE = 1;    // a ball
-const int LINKING = 2;   // one sphere lies behind, as particles are linked through it
-const int BROKEN = 3;    // as none are; or the chain has ended
+const int INSIDE = 1;    // in a ball
+const int LINKING = 2;   // the path has passed one sphere, by a way that particles are linked by
+const int BROKEN = 3;    // by a way that no particles are linked by; or the chain has ended
 
 Chain start_chain(Ray ray) {
     return Chain(UNBROKEN, NO_SHAPE, 0, 0.0, ray.origin, LINKED != 0 ? pdf_camera(ray.direction) : 0.0);
@@ -242,7 +244,7 @@ Chain start_chain(Ray ray) {
 
 bool is_linked(int shape) { return shape < sphere_count() && shape < 31 && (LINKED >> shape & 1) != 0; }
 
-// After scattering. `is_outside`: whether it was met from outside.
+// Updates the chain after scattering at a vertex of the object `shape`.
 void follow_chain(precise inout Chain chain, int shape, Vertex vertex, bool crosses) {
     if (LINKED == 0) return;
     int before = chain.state;
@@ -259,7 +261,7 @@ void follow_chain(precise inout Chain chain, int shape, Vertex vertex, bool cros
     }
 }
 
-// What particles that are linked through a sphere are weighed against, at a vertex with this cosine.
+// rho that particles linked through a sphere are weighed against, at a vertex; `cosine`: at its normal.
 float rho_of_link(Chain chain, vec3 position, float cosine) {
     if (chain.state != LINKING) return 0.0;
     precise Sphere sphere = sphere_at(chain.sphere);
