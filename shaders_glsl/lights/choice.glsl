@@ -1,11 +1,11 @@
-// Which lamp is sampled. Clusters of lamps are weighed at each point, by their flux over their squared
-// distance, so that near ones are chosen more often. CLUSTERS: how many there are. Of few lamps each
-// is a cluster. Of MANY_LIGHTS, the PARTS of the chosen cluster are weighed alike, and within a part
-// a table chooses by flux. The flux is that of the last restart, and no lamp's share of it is 0:
-// light groups can be dimmed and lit later.
+// Choice of the lamp that is sampled. Clusters of lamps are weighed at each point by their flux over their
+// squared distance, so that near ones are chosen more often. CLUSTERS: how many there are. In a scene of few
+// lamps, each lamp is a cluster. With MANY_LIGHTS, the PARTS of the chosen cluster are weighed in the same
+// way, and a table chooses a lamp of the part by flux. The flux is that of the last restart, and no lamp's
+// share of it is 0: light groups can be dimmed and lit later.
 
-// Of a cluster or a part, from the origin of `ray`, whose direction is ignored; 0 for the lamp that
-// it leaves, where that is alone.
+// Weight of a cluster or a part, seen from the origin of `ray`, whose direction is ignored. It is 0 for the
+// lamp that the ray leaves, where this lamp is a cluster of its own.
 float cluster_weight(int index, Ray ray) {
     precise Cluster cluster = cluster_at(index);
     if (cluster.shape == ray.origin_shape) return 0.0;
@@ -15,7 +15,7 @@ float cluster_weight(int index, Ray ray) {
     return weight;
 }
 
-// Of all lamps together.
+// Weight of all lamps together.
 float total_weight(Ray ray) {
     precise float total = 0.0;
     for (int i = 0; i < CLUSTERS; ++i) total += cluster_weight(i, ray);
@@ -35,7 +35,7 @@ int choose_cluster(Ray ray, float total, float u) {
 
 int first_part(int cluster) { return CLUSTERS + PARTS * cluster; }
 
-// Of all parts of a cluster together.
+// Weight of all parts of a cluster together.
 float parts_weight(int cluster, Ray ray) {
     precise float total = 0.0;
     for (int i = 0; i < PARTS; ++i) total += cluster_weight(first_part(cluster) + i, ray);
@@ -62,7 +62,7 @@ int choose_by_table(Cluster part, float u) {
     return rest < light.keep ? part.first + index : light.alias & 0xFFFF;
 }
 
-// NO_LIGHT where none can be seen: of all lamps, or of the cluster that was chosen for those around it.
+// NO_LIGHT where none can be seen: no lamp at all, or none of the cluster that was chosen.
 int choose_light(Ray ray, float total, vec3 u) {
     int cluster = choose_cluster(ray, total, u.x);
     if (IS_AIMED && CLUSTERS > 1 && total == 0.0) return NO_LIGHT;
@@ -70,7 +70,7 @@ int choose_light(Ray ray, float total, vec3 u) {
     return MANY_LIGHTS ? choose_by_table(cluster_at(choose_part(cluster, ray, u.y)), u.z) : cluster;
 }
 
-// How likely a lamp, not the one just left, is chosen where all together have the weight `total`.
+// Probability to choose a lamp, other than the one just left. `total`: the weight of all lamps together.
 float choice_pdf(int index, Ray ray, float total) {
     if (!MANY_LIGHTS) {
         if (CLUSTERS == 1) return 1.0;

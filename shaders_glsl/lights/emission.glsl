@@ -1,16 +1,16 @@
-// What a lamp emits towards a direction. A cone limits the directions: of the emission it leaves a share
-// that falls with v, 1 - cos of the angle to its axis, which keeps the digits of small angles.
+// Emission of a lamp towards a direction. A cone limits the directions. It leaves a share of the emission that
+// falls with v = 1 - cos of the angle to the axis; v keeps the digits of small angles.
 
 const bool IS_AIMED = HAS_CONE || HAS_ONE_SIDED;  // whether some lamp cannot be seen from everywhere
 
-// From 1 to 0, which it is from `outer` on; `slope`: 1 over the length between them.
+// Falls from 1 to 0, and is 0 from `outer` on; `slope`: 1 over the length of v over which it falls.
 float share_in_cone(float versine, float outer, float slope) {
     precise float s = clamp((outer - versine) * slope, 0.0, 1.0);
     precise float share = s * s * (3.0 - 2.0 * s);
     return share;
 }
 
-// Towards a unit direction; `facing`: whether that leaves the front.
+// Radiance towards a unit direction; `facing`: whether the direction leaves the front.
 vec3 emitted(Material material, vec3 direction, bool facing) {
     if (!IS_AIMED) return material.emission;
     precise Emitter emitter = emitter_at(material.emitter);
@@ -22,8 +22,8 @@ vec3 emitted(Material material, vec3 direction, bool facing) {
     return radiance;
 }
 
-// Of what lamps emit that lie within `reach` of a place, the most that goes to a point `away` from there:
-// 0 only where none does. Those at the edge of that ball emit under another angle, seen from the point.
+// The largest share of emission that lamps within `reach` of a place send to the point at `away` from it. It is 0
+// only where no lamp sends any. A lamp at the edge of that ball emits towards the point under another angle.
 const float ROUNDING_OF_VERSINES = 9.5367431640625e-7;  // 2^-20, of 1 - cos by differences
 
 float share_towards(Aim aim, vec3 away) {

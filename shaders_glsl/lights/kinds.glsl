@@ -1,5 +1,5 @@
-// Kinds of lamps that are sampled. LAMP_KINDS: how many of them the scene has; the only kind needs no test.
-// A function that distinguishes kinds names each one. A shape of no known kind is no lamp there.
+// Kinds of lamps that are sampled. LAMP_KINDS: how many of them the scene has; a single kind needs no test.
+// A function that distinguishes kinds names each one. A shape of no known kind is not a lamp there.
 
 bool is_sphere_lamp(int shape) {
     return HAS_SPHERE_LIGHT && (LAMP_KINDS == 1 || up_to_sphere(shape));

@@ -1,18 +1,19 @@
 // Particles leave the lamps that are sampled, and the sun, where HAS_PARTICLES. A lamp is chosen by its share of the
-// flux, a point evenly over its area, a direction by the cosine; or, of a share `frame.aimed` of the particles,
-// a direction evenly over the cone that a ball fills: these make caustics. CASTERS: a bit for each sphere of glass, or of
-// metal that is not too rough, by its number; TARGETS: how many balls there are around other such shapes.
+// flux, a point evenly over its area, and a direction by the cosine. A share `frame.aimed` of the particles takes
+// a direction evenly over the cone that a ball fills: these particles make caustics. CASTERS: a bit for each sphere of
+// glass, or of metal that is not too rough, by its number; TARGETS: how many balls there are around other such shapes.
 //
-// From the sun, particles come along its rays, spread evenly over the disk that a ball fills across them: the ball
-// around the scene, or one that is aimed at. So they do from the sky, in directions that are drawn as those of its
-// image are sampled, or evenly; all of them, where neither lamps nor the sun send any.
+// Particles from the sun follow its rays. They are spread evenly over the disk that a ball fills across the rays: the
+// ball around the scene, or one that is aimed at. Particles from the sky are spread in the same way. Their directions
+// are drawn as those of the image of the sky are sampled, or evenly. The sky sends all particles where neither lamps
+// nor the sun send any.
 
 const bool SKY_SENDS = HAS_PARTICLES && HAS_BACKGROUND && CLUSTERS == 0 && !HAS_SUN;
 
 const int NOT_AIMED = -1;
-const int FIRST_TARGET = 1 << 20;  // beyond all spheres: the number of what is aimed at, where that is no sphere
+const int FIRST_TARGET = 1 << 20;  // beyond all spheres: the number of the first target that is no sphere
 
-// Balls that are aimed at.
+// The number of balls that are aimed at.
 int ball_count() { return bitCount(CASTERS) + TARGETS; }
 
 bool is_aimed() { return CASTERS != 0 || TARGETS > 0; }
@@ -29,8 +30,8 @@ int choose_emitter(float u) {
 
 bool is_caster(int sphere) { return (CASTERS >> sphere & 1) != 0; }
 
-// 1 / (1 - cos) of the cone that a ball fills, written without the difference; 0 where the line passes by, or from
-// inside. `certain`: whether one was aimed at it, which rounding may have taken past its rim.
+// 1 / (1 - cos) of the cone that a ball fills, written without the difference. It is 0 where the line passes by, or
+// from inside. `certain`: the ray was aimed at this ball, so it counts even if rounding took it past the rim.
 float narrowness(vec3 center, float radius, vec3 p, vec3 direction, bool certain) {
     precise vec3 away = center - p;
     precise float along = dot(away, direction);
@@ -43,7 +44,7 @@ float narrowness(vec3 center, float radius, vec3 p, vec3 direction, bool certain
     return inverse;
 }
 
-// Density per solid angle of directions aimed at balls from p; `certain`: the number of the ball that one was aimed at.
+// Density per solid angle of directions from p aimed at balls; `certain`: the number of the ball that was aimed at.
 float pdf_aimed(vec3 p, vec3 direction, int certain) {
     precise float sum = 0.0;
     if (CASTERS != 0) {
@@ -61,7 +62,7 @@ float pdf_aimed(vec3 p, vec3 direction, int certain) {
     return pdf;
 }
 
-// The number of the n-th sphere of which a bit is set.
+// The number of the n-th sphere whose bit is set.
 int sphere_of(int bits, int n) {
     int left = n;
     for (int i = 0; i < sphere_count(); ++i) {
@@ -72,7 +73,7 @@ int sphere_of(int bits, int n) {
     return NOT_AIMED;
 }
 
-// The number of what is aimed at, of `u` from 0 to 1.
+// The number of the target that `u`, from 0 to 1, chooses.
 int choose_aim(float u) {
     int n = min(int(u * float(ball_count())), ball_count() - 1);
     int casters = bitCount(CASTERS);
@@ -85,7 +86,7 @@ Target aimed_at(int number) {
     return Target(sphere.center, sphere.radius);
 }
 
-// Density per area of the lines across the disk that a ball fills; 0 on those that pass by.
+// Density per area of the lines across the disk that a ball fills; 0 for lines that pass by.
 float density_across(vec3 center, float radius, vec3 p, vec3 direction, bool certain) {
     precise vec3 away = center - p;
     precise vec3 beside = away - dot(away, direction) * direction;
@@ -95,7 +96,7 @@ float density_across(vec3 center, float radius, vec3 p, vec3 direction, bool cer
     return density;
 }
 
-// Density per area across it of particles from afar on a line through p.
+// Density of particles from afar on a line through p, per area across the line.
 float density_from_afar(vec3 p, vec3 direction, int certain) {
     precise float density = density_across(frame.bounds_center, frame.bounds_radius, p, direction, false);
     if (is_aimed()) {
@@ -116,37 +117,38 @@ float density_from_afar(vec3 p, vec3 direction, int certain) {
     return density;
 }
 
-// PI times the density of particles from the sun on a line through p, per area across it and per solid angle; the sun
-// lies in that direction.
+// PI times the density of particles from the sun on a line through p, per area across the line and per solid angle.
+// The line has the direction of the sun.
 float pdf_from_sun(vec3 p, vec3 direction, int certain) {
     precise float pdf = PI * frame.from_sun * pdf_sun() * density_from_afar(p, direction, certain);
     return pdf;
 }
 
-// Of directions towards the sky that particles come from, per solid angle.
+// Density per solid angle of directions towards the part of the sky that particles come from.
 float pdf_sky_direction(vec3 towards) {
     precise float density = 0.25 / PI;
     if (HAS_ENVIRONMENT) density = pdf_sky(towards);
     return density;
 }
 
-// As pdf_from_sun; `direction` is that of the particles, and the sky lies behind them.
+// The same for the sky; `direction` is the direction of the particles, and the sky lies behind them.
 float pdf_from_sky(vec3 p, vec3 direction, int certain) {
     precise float pdf = PI * pdf_sky_direction(-direction) * density_from_afar(p, direction, certain);
     return pdf;
 }
 
-// What the density of aimed directions is per, in place of solid angle: the least cosine keeps it finite.
+// Least cosine that the density of aimed directions is divided by, to be per projected solid angle. It keeps the
+// density finite.
 const float LEAST_COSINE = 9.5367431640625e-7;
 
 // A lamp, seen along a ray that leaves it.
 struct Aspect {
     float area;      // of one side
-    float cosine;    // 0: nothing leaves so
+    float cosine;    // 0: no particle leaves in this direction
     float by_cosine; // the share of particles that leave this side by the cosine
 };
 
-// Of a flat lamp that is seen on that side.
+// Share of the particles that leave this side of a flat lamp by the cosine.
 float share_of_side(int index, bool is_front) {
     precise Sides sides = sides_at(index);
     return is_front ? sides.front : sides.back;
@@ -182,7 +184,7 @@ Aspect aspect_of(int index, vec3 p, vec3 direction) {
 }
 
 // PI times the density of particles that leave a lamp at p, per area and per projected solid angle; 0 where none
-// does. `certain` as pdf_aimed has it. Of the sun and the sky, p is any point on the line.
+// leave. `certain`: see pdf_aimed. For the sun and the sky, p is any point on the line.
 float pdf_emission(int index, vec3 p, vec3 direction, int certain) {
     if (SKY_SENDS) return pdf_from_sky(p, direction, certain);
     if (HAS_SUN && index == SUN_LIGHT) return pdf_from_sun(p, direction, certain);

@@ -1,13 +1,13 @@
 // Points of a parallelogram, sampled nearly evenly in the solid angle that it fills, seen from near
 // and from afar.
 //
-// It is cut into strips along its longer edge. With x across the strips, y along them and z the
-// height of the point over the plane, the solid angle is |z| dx dy / r^3, r^2 = x^2 + y^2 + z^2. A
-// strip is chosen evenly in the angle atan(x / z), a point on it evenly in y / r, which is even in
-// solid angle. So the density is 1 / (angle * extent), the extent being that of y / r over the
-// strip, and no sample weighs more than 2 PI. That of Urena et al. ("An Area-Preserving
-// Parametrization for Spherical Rectangles", EGSR 2013) is even in x too, but for rectangles alone,
-// and by a sum of four angles less 2 PI, which has no digits for small lamps.
+// The quad is cut into strips along its longer edge. Let x be across the strips, y along them and z the
+// height of the point over the plane. The solid angle is |z| dx dy / r^3, r^2 = x^2 + y^2 + z^2. A
+// strip is chosen evenly in the angle atan(x / z), and a point on it evenly in y / r, which is even in
+// solid angle. So the density is 1 / (angle * extent). `extent` is the range of y / r over the strip, and
+// no sample weighs more than 2 PI. The method of Urena et al. ("An Area-Preserving Parametrization for
+// Spherical Rectangles", EGSR 2013) is even in x too, but it works only for rectangles. It also takes a
+// sum of four angles less 2 PI, which has no digits for small lamps.
 
 struct StripView {
     vec3 corner;  // from the point
@@ -30,7 +30,7 @@ bool is_beside(Quad quad, vec3 origin) {
     return z * z > 0.0;
 }
 
-// The angle from x to x + width at the height z: a difference of the two would lose small ones.
+// The angle from x to x + width at the height z. A difference of the two angles would lose small ones.
 float strip_angle(float x, float width, float z) {
     precise float end = x + width;
     precise float along = x * end + z * z;
@@ -40,7 +40,7 @@ float strip_angle(float x, float width, float z) {
     return angle;
 }
 
-// The share of the width, after the share u of the angle, both from the farther end.
+// The share of the width that belongs to the share u of the angle, both from the farther end.
 float sample_strip(float x, float width, float z, float u) {
     precise float end = x + width;
     bool flip = x + end > 0.0;
@@ -65,13 +65,13 @@ StripEnds strip_ends(float y, float length, float d) {
     precise vec2 inverse = 1.0 / sqrt(vec2(d * d) + ends * ends);
     precise vec2 sine = ends * inverse;
     precise vec2 cosine = d * inverse;
-    precise float apart = sine.y - sine.x;  // of near equals, if both are on one side
+    precise float apart = sine.y - sine.x;  // a difference of nearly equal sines, if both are on one side
     precise float within = length * inverse.x * (abs(ends.x + ends.y) * inverse.y);
     precise float beside = cosine.x * cosine.y * within / (abs(sine.x) + abs(sine.y));
     return StripEnds(sine, cosine, ends.x < 0.0 && ends.y > 0.0 ? apart : beside);
 }
 
-// y, even in y / r. The squared cosine is a sum of what is not below 0, with 1 - sine.x sine.y.
+// y, drawn evenly in y / r. The squared cosine is a sum of terms not below 0, with 1 - sine.x sine.y.
 float sample_on_strip(StripEnds ends, float d, float u) {
     precise float v = 1.0 - u;
     precise float sine = v * ends.sine.x + u * ends.sine.y;
@@ -84,14 +84,14 @@ float sample_on_strip(StripEnds ends, float d, float u) {
     return y;
 }
 
-// Of the strip at the share `a` of edge_u.
+// Distance of the point from the strip at the share `a` of edge_u.
 float strip_distance(Quad quad, StripView view, float a) {
     precise float x = view.x + a * quad.width;
     precise float d = sqrt(x * x + view.z * view.z);
     return d;
 }
 
-// The density of its points, per solid angle.
+// The density of the points of this strip, per solid angle.
 float pdf_strips(Quad quad, StripView view, float a) {
     precise float d = strip_distance(quad, view, a);
     precise float y = view.y + a * quad.shear;
@@ -100,7 +100,7 @@ float pdf_strips(Quad quad, StripView view, float a) {
     return pdf;
 }
 
-// The shares of edge_u and edge_v.
+// A sampled point, as shares of edge_u and edge_v.
 vec2 sample_strips(Quad quad, StripView view, vec2 u) {
     precise float a = sample_strip(view.x, quad.width, view.z, u.x);
     precise float d = strip_distance(quad, view, a);

@@ -1,9 +1,9 @@
 // Light sampling. A lamp is chosen (lights/choice.glsl); then a point on a quad, a disk or a triangle, or a direction
 // in the cone that a sphere fills. Densities are per solid angle at the ray's origin and contain the choice.
 //
-// The density is 0, and scattering alone finds the light, for planes (infinite area), boxes and cylinders,
-// for the background, for the lamp just left, for a sphere that contains the point, and for a quad, a
-// disk or a triangle whose plane does.
+// The density is 0, and scattering alone finds the light, in these cases: planes (infinite area), boxes and
+// cylinders, the background, the lamp just left, a sphere that contains the point, and a quad, a disk or a
+// triangle in a plane through the point.
 
 struct LightSample {
     Ray ray;
@@ -16,7 +16,7 @@ struct LightSample {
 };
 
 // 1 - cos of the cone that a sphere fills, without the cancellation of 1 - sqrt(1 - s2);
-// 0 when it contains the point.
+// 0 when the sphere contains the point.
 float cone_of_sphere(vec3 to_center, float radius) {
     precise float s2 = radius * radius / dot(to_center, to_center);
     if (s2 >= 1.0) return 0.0;
@@ -44,9 +44,9 @@ bool is_sampled(int index, Ray ray) {
     return false;
 }
 
-// QUADS_BY_AREA: where both strategies are weighted, points even in area are as good as points even in
-// solid angle, and cheaper: near a lamp, the weights leave it to scattering. Light sampling alone would
-// miss what is near.
+// QUADS_BY_AREA: points even in area replace points even in solid angle where both strategies are weighted. There
+// they are as good and cheaper, since the weights leave light near a lamp to scattering. Light sampling alone
+// would miss near light.
 float pdf_quad(Quad quad, Ray ray, float distance) {
     if (QUADS_BY_AREA) {
         precise float cos_light = abs(dot(ray.direction, quad.normal));
@@ -59,7 +59,7 @@ float pdf_quad(Quad quad, Ray ray, float distance) {
     return pdf_strips(quad, view, clamp(share, 0.0, 1.0));
 }
 
-// Points even in area, in every method.
+// Points are even in area, in every method.
 float pdf_disk(Disk disk, Ray ray, float distance) {
     precise float cos_light = abs(dot(ray.direction, disk.normal));
     if (cos_light == 0.0) return 0.0;
@@ -67,8 +67,8 @@ float pdf_disk(Disk disk, Ray ray, float distance) {
     return pdf;
 }
 
-// The density of choosing this lamp and sampling this ray, which meets it at this distance; `lamps`
-// is the total_weight at its origin.
+// The density of choosing this lamp and sampling this ray, which meets the lamp at this distance; `lamps`
+// is the total_weight at the ray's origin.
 float pdf_light(int index, Ray ray, float distance, float lamps) {
     if (!is_sampled(index, ray)) return 0.0;
     precise Light light = light_at(index);
@@ -94,7 +94,7 @@ float pdf_light(int index, Ray ray, float distance, float lamps) {
     return 0.0;
 }
 
-// Whether lamps are seen from where they emit nothing: what stands before them is then no matter.
+// Whether a sample shows a lamp from where it emits nothing: then no shadow ray is needed.
 bool is_dark(LightSample light) {
     return IS_AIMED && light.radiance == vec3(0.0);
 }
@@ -103,12 +103,12 @@ LightSample no_light_sample(Ray ray) {
     return LightSample(ray, 0.0, 0.0, vec3(0.0), NO_SHAPE, 0, NO_LIGHT);
 }
 
-// What a lamp shows of itself at the origin of a ray.
+// A point of a lamp, seen from the origin of a ray.
 struct LampPoint {
     vec3 direction;
     float distance;  // 0: nothing can be seen
     int material;
-    bool facing;     // whether it shows its front
+    bool facing;     // whether the lamp shows its front
 };
 
 LampPoint no_lamp_point() {
@@ -165,7 +165,7 @@ LampPoint sample_point(Light light, Ray ray, vec2 u) {
     return no_lamp_point();
 }
 
-// Of the lamp with this index, as `sample_light` has it.
+// A sample of the lamp with this index; the rest as for `sample_light`.
 LightSample sample_lamp(Ray ray, int index, vec2 u, float lamps) {
     precise Light light = light_at(index);
     precise LampPoint point = sample_point(light, ray, u);
@@ -177,7 +177,7 @@ LightSample sample_lamp(Ray ray, int index, vec2 u, float lamps) {
     return LightSample(ray, point.distance, pdf, radiance, light.shape, lamp.layer, index);
 }
 
-// From the origin of `ray`, whose direction is ignored and where all lamps have the weight `lamps`.
+// A sample from the origin of `ray`, whose direction is ignored. `lamps`: the weight of all lamps there.
 LightSample sample_light(Ray ray, float lamps, precise inout Sampler rng) {
     precise vec3 choice = vec3(0.0);
     if (MANY_LIGHTS) choice.yz = next_2d(rng);

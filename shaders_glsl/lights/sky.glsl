@@ -1,12 +1,12 @@
 // Light from infinitely far away: a gradient over the height of a direction, or an image. HAS_HORIZON: two
 // gradients, each from the horizon to a pole.
 
-// The image of the sky, of all directions: the top row is +y, the middle column -z, three quarters of the
-// width +x. Between the middles of four pixels it is bilinear; around the vertical axis there is no edge.
+// The image of the sky shows all directions: the top row is +y, the middle column -z, and three quarters of
+// the width +x. It is bilinear between the middles of four pixels, and has no edge around the vertical axis.
 
 struct SkyPlace {
-    ivec2 corner;  // the pixel left above; above the first row -1
-    vec2 share;    // of the way to the pixel right below
+    ivec2 corner;  // the upper left pixel; in row -1 above the first row
+    vec2 share;    // share of the way to the lower right pixel
 };
 
 struct SkyPatch {
@@ -62,11 +62,11 @@ vec3 background(vec3 direction) {
     return radiance;
 }
 
-// Irradiance over PI of a surface that sees all of its half of the sky. Of one gradient that is the
-// radiance two thirds of the way up along the normal. Of two, each half of the sky adds what two
-// clamped cosines at an angle a have in common: 2/3 (sin a + (PI - a) cos a).
+// Irradiance over PI of a surface that sees all of its half of the sky. With one gradient this is the
+// radiance two thirds of the way up along the normal. With two, each half of the sky adds the common part
+// of two clamped cosines at an angle a: 2/3 (sin a + (PI - a) cos a).
 vec3 unhidden_sky(vec3 normal) {
-    if (HAS_ENVIRONMENT) return vec3(0.0);  // models leave it out
+    if (HAS_ENVIRONMENT) return vec3(0.0);  // the classic models leave it out
     precise vec3 two_thirds_up = 2.0 / 3.0 * normal;
     if (!HAS_HORIZON) return background(two_thirds_up);
     precise float sine = sqrt(normal.x * normal.x + normal.z * normal.z);

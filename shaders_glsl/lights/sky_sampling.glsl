@@ -1,14 +1,14 @@
-// Sampling of the image of the sky, in proportion to its brightness times the sine of the angle to the axis:
-// the wider a pixel is, the more of it. Both are bilinear between the middles of four pixels; at the poles the
-// sine is 0. So there is a density wherever there is light.
+// Sampling of the image of the sky, in proportion to its brightness times the sine of the angle to the axis,
+// since wider pixels cover more sky. Both factors are bilinear between the middles of four pixels; at the
+// poles the sine is 0. So there is a density wherever there is light.
 //
 // The patch between four middles is found in a tree whose nodes hold the sums of their four parts (Clarberg
-// et al., "Wavelet Importance Sampling", SIGGRAPH 2005): numbers that are near each other stay near. Patches
+// et al., "Wavelet Importance Sampling", SIGGRAPH 2005): random numbers that are close stay close. Patches
 // above the first and below the last row are half as high.
 
 const float BELOW_ONE = 1.0 - 5.9604644775390625e-8;
 
-// Whether a number lies beyond the first of two parts of the unit interval; it becomes the number within
+// Whether a number lies in the second of two parts of the unit interval. `u` becomes the number within
 // its part.
 bool is_beyond(precise inout float u, float first, float second) {
     precise float target = u * (first + second);
@@ -18,7 +18,7 @@ bool is_beyond(precise inout float u, float first, float second) {
     return beyond;
 }
 
-// The pixel left above it.
+// Draws a patch and returns its upper left pixel.
 ivec2 choose_sky_patch(precise inout vec2 u) {
     ivec2 size = environment_size();
     int below = findMSB(max(size.x, size.y + 1) - 1) + 1;  // levels of the tree
@@ -36,7 +36,7 @@ ivec2 choose_sky_patch(precise inout vec2 u) {
     return place - ivec2(0, 1);
 }
 
-// From 0 to 1, with a density that goes from a to b in a line.
+// A number from 0 to 1 whose density goes linearly from a to b.
 float sample_between(float a, float b, float u) {
     precise float root = a + sqrt(max(a * a + u * (b - a) * (a + b), 0.0));
     if (root == 0.0) return 0.0;
@@ -59,7 +59,7 @@ vec4 sky_corners(SkyPatch around, int row) {
     return vec4(upper, lower);
 }
 
-// Between them, of x and y from 0 to 1.
+// Bilinear value between the corners; x and y from 0 to 1.
 float corners_between(vec4 corners, vec2 place) {
     precise vec2 column = corners.xz + place.x * (corners.yw - corners.xz);
     precise float between = column.x + place.y * (column.y - column.x);
@@ -83,7 +83,7 @@ float pdf_sky(vec3 direction) {
     return sky_density(corners_between(corners, vec2(place.share.x, y)), sine);
 }
 
-// From the origin of `ray`, whose direction is ignored.
+// A sample of the sky from the origin of `ray`, whose direction is ignored.
 LightSample sample_sky(Ray ray, precise inout Sampler rng) {
     precise vec2 u = next_2d(rng);
     ivec2 size = environment_size();

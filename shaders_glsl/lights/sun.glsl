@@ -1,6 +1,6 @@
 // The sun: a disc at infinity, sampled evenly over its solid angle.
 
-// Of a unit direction; the difference of two keeps the digits of a small disc.
+// Whether a unit direction meets the sun. The difference of two directions keeps the digits of a small disc.
 bool meets_sun(vec3 direction) {
     precise vec3 aside = direction - frame.sun_direction;
     return 0.5 * dot(aside, aside) <= frame.sun_versine;
@@ -11,7 +11,7 @@ float pdf_sun() {
     return pdf;
 }
 
-// From the origin of `ray`, whose direction is ignored.
+// A sample of the sun from the origin of `ray`, whose direction is ignored.
 LightSample sample_sun(Ray ray, precise inout Sampler rng) {
     precise vec2 u = next_2d(rng);
     precise vec3 local = sample_cone(frame.sun_versine, u);

@@ -3,7 +3,7 @@
 // A triangle that emits, relative to the camera.
 struct LampTriangle {
     vec3 a;
-    vec3 edge_b;  // from a to the others
+    vec3 edge_b;  // from a to the other corners
     vec3 edge_c;
     vec3 across;  // along the normal, as long as the area
     int mesh;
@@ -23,14 +23,14 @@ bool is_beside(LampTriangle triangle, vec3 origin) {
     return abs(z) > 0.0;
 }
 
-// Shares of the edges, even in area.
+// A point as shares of the two edges, even in area.
 vec2 sample_triangle(vec2 u) {
     precise float root = sqrt(u.x);
     precise vec2 shares = vec2(root * (1.0 - u.y), root * u.y);
     return shares;
 }
 
-// Points even in area, in every method.
+// Points are even in area, in every method.
 float pdf_triangle(LampTriangle triangle, Ray ray, float distance) {
     precise float facing = abs(dot(ray.direction, triangle.across));  // the area that it shows
     if (facing == 0.0) return 0.0;
