@@ -1,9 +1,9 @@
-// What one update of the probes makes of its rays: means over them, for each texel of the maps.
+// One update of the probes: means over the rays, for each texel of the maps.
 
-const float LEAST_COSINE = 1e-3;     // rays beside a normal say little, and at random
-const float LONGEST_DISTANCE = 1.5;  // of a cell's diagonal: what is farther is far
+const float LEAST_COSINE = 1e-3;     // rays nearly along a surface carry little information and much noise
+const float LONGEST_DISTANCE = 1.5;  // of a cell's diagonal: longer distances are cut
 
-// Of distances: cos^50, so that a texel hears of its own direction alone.
+// Weight of a distance: cos^50, so that a texel takes distances only from its own direction.
 float sharpened(float cosine) {
     precise float x2 = cosine * cosine;
     precise float x4 = x2 * x2;
@@ -13,7 +13,7 @@ float sharpened(float cosine) {
     return weight;
 }
 
-// A sum over rays by weight.
+// A weighted sum over rays.
 struct Blend {
     vec3 sum;
     float weight;
@@ -25,7 +25,7 @@ void add_ray(precise inout Blend blend, vec3 value, float weight) {
     blend.weight += weight;
 }
 
-// With what was held before; nothing new leaves it as it is.
+// Mixes the mean of the rays with the value from before; without new rays that value stays.
 vec3 blended(Blend blend, vec3 before, float kept) {
     if (blend.weight == 0.0) return before;
     precise vec3 mean = blend.sum / blend.weight;

@@ -1,10 +1,10 @@
-// What a path tells on its way, where it starts at a probe: the first surface that it meets.
+// Events that a path reports on its way. Here it starts at a probe, and the first surface that it meets is kept.
 
 vec3 met_normal = vec3(0.0);
 int met_object = -1;
 float met_distance = 0.0;
 bool has_met = false;
-bool has_left = false;  // that surface
+bool has_left = false;  // the path has left that surface
 
 void record_vertex(vec3 position, vec3 normal, vec3 shading_normal, int object, float distance, vec3 throughput) {
     if (has_met) return;
@@ -16,7 +16,7 @@ void record_vertex(vec3 position, vec3 normal, vec3 shading_normal, int object, 
 
 void record_scattering(vec3 shading_normal, vec3 direction, float pdf, bool crosses) { has_left = true; }
 
-// It goes on as it came: what it has met is not there for it.
+// The path goes on in its direction: the surface that it has just met does not count as the first.
 void record_passing(int event) { has_met = has_left; }
 
 // The rest is as in integrators/no_record.glsl.

@@ -1,12 +1,12 @@
-// What probes hold: maps of directions, read between their texels.
+// Data of probes: maps of directions, interpolated between their texels.
 //
-// probe_light_at: irradiance by the normal of what is lit, less what shines on it directly. probe_distances_at: mean
-// distance and mean squared distance by direction. probe_place_at: how far a probe stands from the middle of its cell;
-// a: 1, or 0 where it is of no use.
+// probe_light_at: irradiance by the normal of the lit surface, without light that reaches it directly.
+// probe_distances_at: mean distance and mean squared distance by direction. probe_place_at: offset of a probe from the
+// middle of its cell; a: 1, or 0 where the probe is not used.
 
 struct MapPlace {
     ivec2 texel;  // the first of four
-    vec2 beyond;  // way to the last, 0 to 1
+    vec2 beyond;  // way to the last of them, 0 to 1 along each axis
 };
 
 MapPlace place_in_map(int probe, int side, vec3 direction) {

@@ -5,7 +5,7 @@ vec2 signs_of(vec2 v) {
     return vec2(v.x >= 0.0 ? 1.0 : -1.0, v.y >= 0.0 ? 1.0 : -1.0);
 }
 
-// Of a direction of any length but 0: from -1 to 1 each.
+// The place of a direction of any length but 0 on the square: each coordinate from -1 to 1.
 vec2 to_octahedron(vec3 direction) {
     precise vec2 place = direction.xy / (abs(direction.x) + abs(direction.y) + abs(direction.z));
     if (direction.z >= 0.0) return place;
@@ -19,8 +19,8 @@ vec3 from_octahedron(vec2 place) {
     return normalized(direction);
 }
 
-// A map of directions has `side` inner texels along an edge, from 1 on, and a border, so that what is read between
-// texels needs no look at the fold: which inner texel a texel stands for.
+// A map of directions has `side` inner texels along an edge, numbered from 1 on, and a border. With the border,
+// interpolation needs no special case at the fold. Returns the inner texel that a texel stands for.
 ivec2 inner_texel(ivec2 texel, int side) {
     if (texel.y == 0 || texel.y == side + 1) texel = ivec2(side + 1 - texel.x, clamp(texel.y, 1, side));
     if (texel.x == 0 || texel.x == side + 1) texel = ivec2(clamp(texel.x, 1, side), side + 1 - texel.y);

@@ -1,15 +1,15 @@
-// Probes that stand in a solid, outside of the room that the camera is in, or close to a surface, are pushed aside: at
-// most to the edge of their cell. The wrong faces of solids tell: those that the camera is not before.
+// A probe in a solid, outside of the room that contains the camera, or close to a surface is pushed aside, at most to
+// the edge of its cell. Such a place shows by wrong faces of solids: the camera does not lie on their side.
 
-const float MOST_WRONG = 0.25;    // share of the rays of a probe, of those that meet something: beyond, it is in a solid
-const float NEAR_SURFACE = 0.05;  // of the shortest edge of a cell: nearer to surfaces no probe should stand
+const float MOST_WRONG = 0.25;    // share of wrong faces among met surfaces: above it, the probe is in a solid
+const float NEAR_SURFACE = 0.05;  // of the shortest edge of a cell: the least distance of a probe from surfaces
 const float MOST_PUSHED = 0.45;   // of a cell, along each edge
 
-// What the rays of a probe have met.
+// Surfaces that the rays of a probe have met.
 struct Surroundings {
-    int rays;  // that met something
+    int rays;  // number of rays that met something
     int wrong;
-    vec3 nearest_wrong;  // the way to it; of length 0: none
+    vec3 nearest_wrong;  // the way to the nearest wrong face; of length 0: none
     vec3 nearest_right;
 };
 
@@ -21,7 +21,7 @@ bool is_nearer(vec3 way, vec3 known) {
     return known == vec3(0.0) || dot(way, way) < dot(known, known);
 }
 
-// `distance` as the rays of probes tell it.
+// Adds one ray. `distance`: as the rays of probes report it, below 0 for a wrong face.
 void look(precise inout Surroundings around, vec3 direction, float distance) {
     if (distance == 0.0 || distance >= FAR) return;
     around.rays += 1;
@@ -38,7 +38,7 @@ bool is_in_solid(Surroundings around) {
     return float(around.wrong) > MOST_WRONG * float(around.rays);
 }
 
-// Where it stands next, from the middle of its cell: through the nearest wrong face, or away from what is close.
+// The next offset of a probe from the middle of its cell: through the nearest wrong face, or away from a close surface.
 vec3 pushed(Surroundings around, vec3 offset) {
     precise float near = NEAR_SURFACE * frame.probe_edge;
     precise vec3 next = offset;

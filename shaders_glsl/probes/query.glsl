@@ -1,18 +1,19 @@
 // Indirect light at a point, from the eight probes around it.
 //
-// Each is weighed by nearness, by whether it stands before the surface, and by whether the point is seen from it: by
-// the mean and the variance of the distances there, Chebyshev's inequality bounds the chance of that. The weights
-// and constants are those of Majercik et al. ("Scaling Probe-Based Real-Time Dynamic Global Illumination for
-// Production", JCGT 2021) and of NVIDIA's RTXGI.
+// Each probe is weighed by its nearness, by whether it stands before the surface, and by whether the point is visible
+// from it. For the last, Chebyshev's inequality bounds the chance by the mean and the variance of the distances in that
+// direction. The weights and constants are those of Majercik et al. ("Scaling Probe-Based Real-Time Dynamic Global
+// Illumination for Production", JCGT 2021) and of NVIDIA's RTXGI.
 
 const float BIAS = 0.225;          // of the shortest edge of a cell: how far before a surface its light is looked up
-const float BIAS_TO_NORMAL = 0.2;  // the rest goes towards where the light goes
-const float LEAST_SEEN = 0.05;     // weight of a probe that is not seen
+const float BIAS_TO_NORMAL = 0.2;  // share of the bias along the normal; the rest goes along wo
+const float LEAST_SEEN = 0.05;     // weight of a probe that does not see the point
 const float LEAST_WEIGHT = 1e-6;
 const float SMALL_WEIGHT = 0.2;    // below it weights fall to 0 faster, so that dim leaks vanish
 const float LEAST_NEARNESS = 0.001;
 
-// How likely a point at a distance is seen, where distances have this mean and mean square.
+// The chance that a point at a distance is visible from a probe whose distances have these moments: mean and mean
+// square.
 float chance_seen(vec2 moments, float distance) {
     if (distance <= moments.x) return 1.0;
     precise float variance = abs(moments.x * moments.x - moments.y);
@@ -22,21 +23,21 @@ float chance_seen(vec2 moments, float distance) {
     return seen;
 }
 
-// Of a probe in a direction from a surface.
+// Weight of a probe that lies in the unit direction `to_probe` from a surface.
 float weight_of_side(vec3 normal, vec3 to_probe) {
     precise float before = (dot(to_probe, normal) + 1.0) / 2.0;
     precise float weight = before * before + 0.2;
     return weight;
 }
 
-// Small weights made smaller, and none 0.
+// Makes small weights smaller, but never 0.
 float crushed(float weight) {
     precise float kept = max(weight, LEAST_WEIGHT);
     if (kept < SMALL_WEIGHT) kept *= kept * kept / (SMALL_WEIGHT * SMALL_WEIGHT);
     return kept;
 }
 
-// What is looked up of a surface lies before it; `wo`: towards where the light goes.
+// The place before a surface where its light is looked up; `wo`: the unit direction in which the light leaves.
 vec3 biased_place(vec3 position, vec3 normal, vec3 wo) {
     if (WITHOUT_BIAS) return position;
     precise float length = BIAS * frame.probe_edge;
@@ -44,13 +45,13 @@ vec3 biased_place(vec3 position, vec3 normal, vec3 wo) {
     return place;
 }
 
-// Light of probes, and the sum of their weights; 0: none is of use.
+// Light of probes, and the sum of their weights; 0: no probe can be used.
 struct ProbeLight {
     vec3 irradiance;
     float weight;
 };
 
-// Of the probe of a cell: what it gives to a point `position`, looked up at `place`.
+// Weight of a probe for the light at a point `position`, looked up at `place`.
 float weight_of_probe(int probe, vec3 position, vec3 place, vec3 normal) {
     precise vec4 offset = place_of_probe(probe);
     if (offset.a == 0.0) return 0.0;
@@ -66,7 +67,8 @@ float weight_of_probe(int probe, vec3 position, vec3 place, vec3 normal) {
     return crushed(weight);
 }
 
-// By how far along each axis a point has come from the first of eight probes to the last.
+// Weight of one of eight probes by trilinear interpolation; `beyond`: how far the point lies from the first probe
+// towards the last along each axis, 0 to 1.
 float nearness(ivec3 corner, vec3 beyond) {
     precise vec3 shares = vec3(0.0);
     for (int i = 0; i < 3; i += 1) shares[i] = max(corner[i] == 1 ? beyond[i] : 1.0 - beyond[i], LEAST_NEARNESS);
@@ -74,7 +76,7 @@ float nearness(ivec3 corner, vec3 beyond) {
     return product;
 }
 
-// At a surface with a unit normal on the side of `wo`.
+// Light of probes at a surface with a unit normal on the side of `wo`.
 ProbeLight light_of_probes(vec3 position, vec3 normal, vec3 wo) {
     precise vec3 place = biased_place(position, normal, wo);
     precise vec3 cells = place_in_grid(place);
@@ -92,9 +94,9 @@ ProbeLight light_of_probes(vec3 position, vec3 normal, vec3 wo) {
     return sum;
 }
 
-// Light that reaches a matte surface over others, in place of following the path further: it ends with the segment
-// that finds its direct light. Beyond the grid, and where no probe is of use, paths go on; those of a final gather
-// also where they meet the first matte surface.
+// Adds indirect light of a matte surface from probes, which replaces the rest of the path. The path ends with the
+// segment that finds the direct light of this surface. Paths go on beyond the grid, and where no probe can be used.
+// Paths of a final gather also go on where they meet the first matte surface.
 void gather_from_probes(precise inout Path path, Vertex vertex, vec3 position, precise inout Sampler rng) {
     if (!HAS_PROBES || vertex.material.kind != MATTE || path.depth + 2 > frame.bounces) return;
     if (!path.asking.is_due) {

@@ -1,40 +1,40 @@
-// Method resampled: light at the first matte surface of a path comes from one point, which is kept of some: a point on
-// a lamp, and what a scattered ray meets, lamp or matte surface, whose light is its own direct light and that of
-// probes (Majercik et al., "Dynamic Diffuse Global Illumination Resampling", 2022). REUSES_OWN: what the sample before
-// kept for this pixel is a candidate, too; REUSES_NEAR: so many pixels around are asked. All is reuse of one frame
-// before, so that a sample is one dispatch (Wyman and Panteleev, "Rearchitecting Spatiotemporal Resampling for
-// Production", HPG 2021).
+// Method resampled: light at the first matte surface of a path comes from one point, which is kept out of several
+// candidates. These are a point on a lamp and the surface that a scattered ray meets, a lamp or a matte surface. The
+// light of a matte surface is its own direct light and that of probes (Majercik et al., "Dynamic Diffuse Global
+// Illumination Resampling", 2022). REUSES_OWN: the point that the sample before kept for this pixel is a candidate,
+// too; REUSES_NEAR: how many pixels around are asked. All reuse is of one frame before, so that a sample is one
+// dispatch (Wyman and Panteleev, "Rearchitecting Spatiotemporal Resampling for Production", HPG 2021).
 //
-// Not of these are light from the sky and the sun, from lamps with cones or one side, and what a scattered ray meets
-// that is not matte: paths bring that as they do by `gather`.
+// Some light is no candidate: light from the sky and the sun, from lamps with cones or one side, and from surfaces that
+// a scattered ray meets and that are not matte. Paths add it by `gather`, as they do without resampling.
 
-const int MOST_COUNTED = 20;         // candidates that one reservoir stands for
-const float NEAR_PART = 1.0 / 48.0;  // of the height of the frame: how far pixels around lie
-const float LEAST_ALIKE = 0.9063;    // cosine between normals of pixels that are asked: 25 degrees
-const float NEXT_TO_SOURCE = 1.0 / 1024.0;  // of the way to it: how near its own object hides none
-const float MOST_DEEPER = 0.1;       // the difference of their distances, relative
+const int MOST_COUNTED = 20;         // most candidates that one reservoir stands for
+const float NEAR_PART = 1.0 / 48.0;  // of the height of the frame: how far away pixels around lie at most
+const float LEAST_ALIKE = 0.9063;    // least cosine between normals of pixels that are asked: 25 degrees
+const float NEXT_TO_SOURCE = 1.0 / 1024.0;  // of the way to a source: its own object this near hides none
+const float MOST_DEEPER = 0.1;       // most relative difference of the pixels' distances from the camera
 const int STREAMS = 1 + (REUSES_OWN ? 1 : 0) + REUSES_NEAR;
 const bool REUSES = STREAMS > 1;
 const bool RESAMPLES_LAMPS = RESAMPLES && !IS_AIMED;
 
 const int BEFORE_FIRST = 0;   // the path has not met its first matte surface
-const int SCATTERED = 1;      // it has left that
-const int BEYOND_SECOND = 2;  // and has met another, whose light it gathers
-const int GATHERS_ALONE = 3;  // and has met something else
+const int SCATTERED = 1;      // it has left that surface
+const int BEYOND_SECOND = 2;  // it has then met another matte surface and gathers the light of that
+const int GATHERS_ALONE = 3;  // it has then met something else
 
-// What one sample has found so far.
+// State of the resampling of one sample.
 struct Resampling {
     int stage;
     Receiver at;
-    vec3 factor;   // of the light that it sends on: what the path has left, times albedo / PI
+    vec3 factor;   // of the light that the surface sends on: the path's throughput with scale, times albedo / PI
     Stream stream;
     Source second; // the second matte surface, without its light
-    vec3 earlier;  // radiance from before that
-    Sampler rng;   // of choices: no draws of paths, which stay as they are without
+    vec3 earlier;  // radiance that the path gathered before that surface
+    Sampler rng;   // of choices only, so that the path draws the same numbers as without resampling
 };
 
 Resampling resampling;
-Reservoir held_reservoir;  // what this sample keeps for the next one
+Reservoir held_reservoir;  // the reservoir that this sample keeps for the next one
 
 void start_resampling(Sampler rng) {
     if (!RESAMPLES) return;
@@ -44,7 +44,8 @@ void start_resampling(Sampler rng) {
     resampling = begun;
 }
 
-// Whether it begins at this vertex. Inside glass that absorbs light, a point has another light for each distance.
+// Whether resampling begins at this vertex. It does not inside glass that absorbs light: there, the light of a point
+// depends on the distance.
 bool begins_resampling(Path path, Material material) {
     bool is_clear = path.absorption == vec3(0.0) && path.counts == 0u;
     return RESAMPLES && resampling.stage == BEFORE_FIRST && material.kind == MATTE && is_clear;
@@ -61,7 +62,7 @@ void offer_source(Source source, float weight) {
     offer(resampling.stream, source, weight, 0, next_independent(resampling.rng));
 }
 
-// A point on a lamp, by its density per solid angle; `facing`: the true normal on the side of wo.
+// Offers a point on a lamp, by its density per solid angle; `facing`: the true normal on the side of wo.
 void offer_lamp(LightSample light, vec3 facing) {
     if (light.pdf == 0.0) return;
     precise float cosine = dot(light.ray.direction, resampling.at.normal);
@@ -74,26 +75,26 @@ void offer_lamp(LightSample light, vec3 facing) {
     offer_source(Source(surface.position, normal, light.radiance, light.shape), weight);
 }
 
-// Of the surface that the scattered ray of the first matte one meets.
+// The surface that the scattered ray of the first matte surface meets, as a source without light.
 Source source_met(Path path, Surface surface) {
     precise vec3 normal = true_normal(surface);
     if (dot(normal, path.ray.direction) > 0.0) normal = -normal;
     return Source(surface.position, normal, vec3(0.0), surface.shape);
 }
 
-// Whether the emission of a surface that is met is a candidate. Else the path gathers it.
+// Whether the emission of a surface that the path meets is a candidate. Otherwise the path gathers it.
 bool is_candidate(vec3 emission) {
     return RESAMPLES_LAMPS && resampling.stage == SCATTERED && emission != vec3(0.0);
 }
 
-// `share`: the weight of the emission against points sampled on lamps.
+// Offers emission that scattering met. `share`: its weight against points sampled on lamps.
 void offer_met(Path path, Surface surface, vec3 emission, float share) {
     precise Source source = source_met(path, surface);
     source.light = emission;
     offer_source(source, share * luminance(emission) * PI);
 }
 
-// From a second matte surface on, the path gathers the light of that.
+// From a second matte surface on, the path gathers the light of that surface alone.
 void meet_second(precise inout Path path, Surface surface, Material material) {
     if (!RESAMPLES || resampling.stage != SCATTERED) return;
     resampling.stage = GATHERS_ALONE;
@@ -106,7 +107,7 @@ void meet_second(precise inout Path path, Surface surface, Material material) {
     path.scale = 1.0;
 }
 
-// Whether two pixels show what is lit alike.
+// Whether two pixels show surfaces that are lit alike.
 bool are_alike(Receiver one, Receiver other) {
     if (one.shape == NO_SHAPE || other.shape == NO_SHAPE) return false;
     if (object_number(one.shape) != object_number(other.shape) || one.is_within != other.is_within) return false;
@@ -115,8 +116,8 @@ bool are_alike(Receiver one, Receiver other) {
     return dot(one.normal, other.normal) > LEAST_ALIKE && abs(near - far) < MOST_DEEPER * max(near, far);
 }
 
-// Whether something stands between a surface and a source before it. The object of the source does not where it is met
-// next to it, by rounding.
+// Whether something stands between a surface and a source before it. By rounding, the object of the source may be met
+// next to the source; that hides nothing.
 bool is_hidden(Receiver at, Source source) {
     precise vec3 away = source.position - at.position;
     precise float distance = length(away);
@@ -126,7 +127,7 @@ bool is_hidden(Receiver at, Source source) {
     return !is_there || hit.distance < distance * (1.0 - NEXT_TO_SOURCE);
 }
 
-// The pixel that a stream comes from; 1 and on.
+// The pixel that a stream comes from; streams are numbered from 1 on.
 ivec2 pixel_of_stream(ivec2 place, int stream) {
     if (REUSES_OWN && stream == 1) return place;
     int most = max(int(float(frame.size.y) * NEAR_PART), 1);
@@ -136,7 +137,7 @@ ivec2 pixel_of_stream(ivec2 place, int stream) {
     return place + ivec2(floor(vec2(x, y) * float(2 * most + 1))) - most;
 }
 
-// What a stream brings: of count 0 where it brings nothing.
+// The reservoir of a stream; its count is 0 where the stream has none to give.
 Reservoir reservoir_of_stream(Receiver at, ivec2 place, int stream) {
     ivec2 pixel = pixel_of_stream(place, stream);
     if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, frame.size))) return empty_reservoir();
@@ -146,19 +147,20 @@ Reservoir reservoir_of_stream(Receiver at, ivec2 place, int stream) {
     return found;
 }
 
-// What is shared of a point between one stream that has the target `there` and the sample's own, with `here`: the part
-// of the stream, if all had `count` candidates that were like its own. 0 where the stream does not see the point.
+// The share of a point that belongs to one stream and not to the sample's own. The stream has the target `there`, and
+// the sample has `here`. The share is that of the stream if all `count` candidates were like its own; 0 where the
+// stream does not see the point.
 float share_of_stream(float count, float there, float here) {
     if (there == 0.0) return 0.0;
     precise float share = 1.0 / (1.0 + here / (count * there));
     return share;
 }
 
-// One reservoir of those of this sample and of the frame before. Each stream is weighed with the sample's own alone
-// (pairwise weights: Bitterli, "Correlations and Reuse for Fast and Accurate Physically Based Light Transport", 2022):
-// of M_i of the M candidates of all streams, m_i = M_i / M share_i, and m = sum_i(M_i / M (1 - share_i))
-// is left for its own. So no weight is far beyond those that it is made of. A stream that does not see the own point
-// has no share of it, for which a ray is sent; the biased form sends none.
+// Merges the reservoirs of this sample and of the frame before into one. Each stream is weighed against the sample's
+// own alone (pairwise weights: Bitterli, "Correlations and Reuse for Fast and Accurate Physically Based Light
+// Transport", 2022). A stream with M_i of the M candidates of all streams has m_i = M_i / M share_i. The sample's own
+// has the rest, m = sum_i(M_i / M (1 - share_i)). So no weight is far above the weights that it is made of. A stream
+// that does not see the own point has no share of it. A ray tests this; the biased form sends none.
 Reservoir merged(Reservoir own, ivec2 place) {
     precise float count = 0.0;
     for (int i = 1; i < STREAMS; i += 1) count += reservoir_of_stream(own.at, place, i).count;
@@ -191,7 +193,7 @@ Reservoir merged(Reservoir own, ivec2 place) {
     return result;
 }
 
-// The end of a path: its light through the point that is kept.
+// The end of a path: adds its light through the point that is kept.
 void end_resampling(precise inout Path path, ivec2 place, int index) {
     if (!RESAMPLES) return;
     held_reservoir = empty_reservoir();

@@ -1,9 +1,9 @@
 // Resampled importance sampling (Talbot et al., EGSR 2005) and reservoirs (Bitterli et al., "Spatiotemporal Reservoir
-// Resampling", SIGGRAPH 2020). Of candidates y_i, which have the weights w_i = m_i p(y_i) / (density of y_i), one is
-// kept with a chance in proportion to its weight. p, the target, is no density: it is what y would bring to a
-// surface, as luminance, over albedo / PI. With W = sum(w_i) / p(y) the mean of f(y) W is the integral of f.
+// Resampling", SIGGRAPH 2020). Candidates y_i have the weights w_i = m_i p(y_i) / (density of y_i). One of them is kept
+// with a chance in proportion to its weight. The target p is not a density: it is the luminance of the light that y
+// would bring to a surface, over albedo / PI. With W = sum(w_i) / p(y), the mean of f(y) W is the integral of f.
 //
-// Densities are over areas, so that a candidate serves other surfaces as it is.
+// Densities are per area, so that other surfaces can use a candidate unchanged.
 
 const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);  // of linear sRGB, Rec. 709
 
@@ -12,7 +12,7 @@ float luminance(vec3 light) {
     return value;
 }
 
-// A point that sends the same light to all that is before it.
+// A point that sends the same light to all surfaces before it.
 struct Source {
     vec3 position;
     vec3 normal;  // unit, on the side that shines
@@ -24,14 +24,14 @@ struct Source {
 struct Receiver {
     vec3 position;
     vec3 normal;   // unit, towards where the path came from
-    int shape;     // NO_SHAPE: there is none
-    bool is_within;  // whether that is the inside of the shape
+    int shape;     // NO_SHAPE: no surface
+    bool is_within;  // whether the lit side is the inside of the shape
 };
 
 struct Reservoir {
     Source kept;
     float weight;  // W, per area
-    float count;   // candidates that have been seen, in units of those of one sample
+    float count;   // number of candidates seen, in units of the candidates of one sample
     Receiver at;
 };
 
@@ -60,13 +60,13 @@ float geometry_term(Receiver at, Source source) {
     return product;
 }
 
-// The target, where nothing stands between.
+// The target of a source, if nothing stands between.
 float target(Receiver at, Source source) {
     precise float value = geometry_term(at, source) * luminance(source.light);
     return value;
 }
 
-// Candidates one after the other: the sum of their weights, and the one that is kept.
+// Candidates one after the other: the sum of their weights, and the candidate that is kept.
 struct Stream {
     float sum;
     Source kept;
@@ -77,7 +77,7 @@ Stream empty_stream() {
     return Stream(0.0, no_source(), 0);
 }
 
-// `u`: uniform, of this candidate alone.
+// `u`: a uniform random number, used for this candidate alone.
 void offer(precise inout Stream stream, Source source, float weight, int origin, float u) {
     stream.sum += weight;
     if (u * stream.sum < weight) {
@@ -86,7 +86,7 @@ void offer(precise inout Stream stream, Source source, float weight, int origin,
     }
 }
 
-// How reservoirs lie in a texture: for each pixel a block of so many texels.
+// Layout of reservoirs in a texture: each pixel has a block of so many texels.
 const int ROWS_OF_RESERVOIR = 2;
 const int COLUMNS_OF_RESERVOIR = 3;
 const int PARTS_OF_RESERVOIR = ROWS_OF_RESERVOIR * COLUMNS_OF_RESERVOIR;
@@ -96,7 +96,7 @@ ivec2 texel_of_part(ivec2 pixel, int part) {
     return ivec2(COLUMNS_OF_RESERVOIR, ROWS_OF_RESERVOIR) * pixel + place;
 }
 
-// Numbers of shapes by halves, which a float holds whatever they are.
+// The number of a shape as two halves, which a float holds exactly for every number.
 vec2 halves_of(int shape) {
     return vec2(float(shape & 0xFFFF), float(shape >> 16));
 }

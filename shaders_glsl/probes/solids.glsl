@@ -1,6 +1,6 @@
-// Where probes should not stand.
+// Places where probes should not stand.
 
-// Solids are spheres, boxes and cylinders with caps; of all else, both sides are outside.
+// Solids are spheres, boxes and cylinders with caps. Both sides of all other shapes are outside.
 bool is_solid(int shape) {
     if (HAS_SPHERE && up_to_sphere(shape)) return true;
     if (HAS_PLANE && up_to_plane(shape)) return false;
@@ -10,7 +10,7 @@ bool is_solid(int shape) {
     return HAS_CYLINDER && up_to_cylinder(shape) && cylinder_at(shape - first_cylinder()).is_capped != 0;
 }
 
-// Whether the camera is in a solid: then that is a room.
+// Whether the camera is in a solid: then the solid is a room.
 bool holds_camera(int shape) {
     if (HAS_SPHERE && up_to_sphere(shape)) {
         precise Sphere sphere = sphere_at(shape);
@@ -27,7 +27,7 @@ bool holds_camera(int shape) {
     return abs(height) <= cylinder.half_height && beside <= cylinder.radius;
 }
 
-// Whether a ray in a direction meets the side of a solid that the camera is not on.
+// Whether a ray in a direction meets the side of a solid on which the camera does not lie.
 bool is_wrong_face(int shape, vec3 normal, vec3 direction) {
     if (!is_solid(shape)) return false;
     bool from_inside = dot(direction, normal) > 0.0;
