@@ -3,7 +3,7 @@
 
 const int ALBEDO_STEPS = 64;
 
-// The two, at an angle to the normal; `first`: of the rows.
+// The two numbers at an angle to the normal; `first`: the first row of the table.
 vec2 albedos(int first, float cosine) {
     precise float place = sqrt(min(cosine, 1.0)) * float(ALBEDO_STEPS);
     int step = min(int(place), ALBEDO_STEPS - 1);

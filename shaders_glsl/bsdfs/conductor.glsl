@@ -18,7 +18,7 @@ float fresnel_conductor(float cosine, float n, float k) {
     return reflectance;
 }
 
-// Of metal, at an angle to its normal or to that of its facet.
+// Reflectance of metal, at an angle to its normal or to the normal of its facet.
 vec3 metal_reflectance(Material material, float cosine) {
     if (!HAS_CONDUCTOR || material.details == NO_DETAILS) return material.color;
     precise Conductor metal = conductor_at(material.details);
@@ -29,7 +29,7 @@ vec3 metal_reflectance(Material material, float cosine) {
     return reflectance;
 }
 
-// What a surface reflects of light that comes along its normal; glass counts as black.
+// Reflectance of a surface for light that comes along its normal; glass counts as black.
 vec3 head_on_reflectance(Material material) {
     if (material.kind == DIELECTRIC || material.kind == PANE) return vec3(0.0);
     return material.kind == METAL ? metal_reflectance(material, 1.0) : material.color;

@@ -1,7 +1,7 @@
 // A smooth interface between two dielectrics.
 
-// Unpolarised Fresnel reflectance. The squared cosine on the far side in the form that is exact
-// for eta = 1; not above 0 where all light is reflected.
+// Unpolarised Fresnel reflectance. The squared cosine on the far side has the form that is exact
+// for eta = 1; it is not above 0 where all light is reflected.
 float refracted_cos2(float cos_i, float eta) {
     precise float cos2 = (1.0 - eta) * (1.0 + eta) + eta * eta * (cos_i * cos_i);
     return cos2;
@@ -17,8 +17,8 @@ float fresnel(float cos_i, float eta) {
     return reflectance;
 }
 
-// One of the two directions, with the probability of its share: the weight is 1. Radiance that
-// crosses is squeezed into another solid angle and scales by eta^2.
+// Samples one of the two directions with the probability of its share: the weight is 1. Radiance that
+// crosses is compressed into another solid angle and scales by eta^2.
 Scattering sample_dielectric(Vertex vertex, float u) {
     precise float eta = vertex.eta;
     precise float cos_i = vertex.wo.z;

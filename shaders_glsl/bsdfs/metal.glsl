@@ -1,7 +1,7 @@
 // Mirrors, and rough metal: GGX with height-correlated Smith shadowing.
 
-// Normal distribution, from the half vector in the local frame (its x and y keep the digits of
-// narrow lobes, which 1 - h.z^2 would lose).
+// Normal distribution at the half vector in the local frame. Its x and y keep the digits of
+// narrow lobes, which 1 - h.z^2 would lose.
 float ggx_d(float alpha, vec3 h) {
     precise float slope = dot(h.xy, h.xy) / (alpha * alpha) + h.z * h.z;
     precise float d = 1.0 / (PI * alpha * alpha * slope * slope);
@@ -30,7 +30,7 @@ float pdf_ggx(float alpha, vec3 wo, vec3 h) {
     return pdf;
 }
 
-// A visible normal (Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", 2023).
+// Samples a visible normal (Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", 2023).
 vec3 sample_ggx_normal(float alpha, vec3 wo, vec2 u) {
     precise vec3 w = normalized(vec3(alpha * wo.xy, wo.z));
     precise float phi = 2.0 * PI * u.x;

@@ -1,7 +1,7 @@
-// A thin pane of glass: both faces at once, and what is reflected to and fro between them. Light that
+// A thin pane of glass: both faces at once, with the reflections between them. Light that
 // passes goes straight on.
 
-// Of one face F: F + F (1 - F)^2 + F^3 (1 - F)^2 + ... = 2 F / (1 + F).
+// Reflectance of a pane whose single face has F: F + F (1 - F)^2 + F^3 (1 - F)^2 + ... = 2 F / (1 + F).
 float pane_reflectance(float cosine, float ior) {
     precise float face = fresnel(cosine, 1.0 / ior);
     precise float reflectance = 2.0 * face / (1.0 + face);

@@ -1,22 +1,22 @@
-// A coat, over facets that are metal and dielectric in parts, over a matte base: glTF's metallic roughness.
+// A coat over facets over a matte base: glTF's metallic roughness. The facets are metal and dielectric in parts.
 //
-// Facets are GGX with Schlick's reflectance f0 + (f90 - f0) (1 - cos)^5. What lies below gets what they leave of
-// light, on its way in and out, in forms that are symmetric and never gain energy (E: directional albedo):
+// Facets are GGX with Schlick's reflectance f0 + (f90 - f0) (1 - cos)^5. The layers below get the light that the facets
+// leave on its way in and out, in forms that are symmetric and never gain energy (E: directional albedo):
 //   the base, (1 - E(wo)) (1 - E(wi)) / mean(1 - E) of the dielectric facets (Kelemen and Szirmay-Kalos, "A
 //   Microfacet Based Coupled Specular-Matte BRDF Model with Importance Sampling", 2001);
-//   all below the coat, the lesser of 1 - E(wo) and 1 - E(wi) of the coat.
-// Light that facets lose to each other comes back as one lobe (Kulla and Conty 2017, as rough_dielectric.glsl).
-// Smooth facets are deltas: they are sampled, and neither evaluated nor have a density.
+//   all layers below the coat, the lesser of 1 - E(wo) and 1 - E(wi) of the coat.
+// Light that facets lose to each other comes back as one lobe (Kulla and Conty 2017, as in rough_dielectric.glsl).
+// Smooth facets are deltas: they are sampled, but have neither a value nor a density.
 
-const float COAT_F0 = 0.04;  // of ior 1.5
+const float COAT_F0 = 0.04;  // of an index of refraction of 1.5
 
-// What a path meets of a surface that is glass in part: that, or the rest.
+// The part of a surface that a path meets, where the surface is glass in part: the glass, or the rest.
 Material met_part(Material material, float u) {
     precise Gloss gloss = gloss_at(material.details);
     precise float share = gloss.transmission;
     if (HAS_TRANSMISSION_MAP) {
         share *= clamp(material.crossed, 0.0, 1.0);
-        precise float whole = material.metallic * (1.0 - gloss.transmission);  // of all, and now of the rest
+        precise float whole = material.metallic * (1.0 - gloss.transmission);  // of the whole; below of the rest
         if (share < 1.0) material.metallic = whole / (1.0 - share);
     }
     if (u >= share) return material;
@@ -41,8 +41,8 @@ struct Principled {
     vec3 base;   // albedo
 };
 
-// Share of what facets lose to each other that comes back, F^2 E / (1 - F (1 - E)): F, the mean reflectance, is
-// f0 + (f90 - f0) / 21.
+// Share of the light that facets lose to each other which comes back, F^2 E / (1 - F (1 - E)). The mean reflectance F
+// is f0 + (f90 - f0) / 21.
 vec3 sent_back(vec3 f0, float f90, float kept) {
     precise vec3 mean = f0 + (f90 - f0) / 21.0;
     precise vec3 share = mean * mean * kept / (1.0 - mean * (1.0 - kept));
@@ -60,11 +60,11 @@ Principled principled_of(Material material) {
     return Principled(gloss, f0, f90, again, base);
 }
 
-// Shares of light from a direction: by f0 and f90 what facets reflect, and what they lose to each other.
+// Shares of light from a direction: reflected by facets, as factors of f0 and f90, and lost by facets to each other.
 struct Shares {
     vec2 facets;
     float lost;
-    float base;  // what dielectric facets leave
+    float base;  // left by dielectric facets
 };
 
 Shares shares_of(Gloss gloss, float cosine) {
@@ -75,7 +75,7 @@ Shares shares_of(Gloss gloss, float cosine) {
     return Shares(facets, lost, left);
 }
 
-// What the coat leaves of light from a direction.
+// The share of light from a direction that the coat leaves.
 float below_coat(Gloss gloss, float cosine) {
     if (!HAS_COAT || gloss.coat == 0.0) return 1.0;
     precise vec2 facets = albedos(gloss.first_coat, cosine);
@@ -88,8 +88,8 @@ float mean_of(vec3 color) {
     return mean;
 }
 
-// With which chance a sample is one of the coat, of the facets, and of the base and what facets lose: about
-// their shares of light that comes from wo.
+// Chances that a sample is of the coat, of the facets, or of the base with the light that facets lose. They are about
+// the shares of these in light that comes from wo.
 vec3 lobe_chances(Principled it, float cosine, Shares shares) {
     precise float left = below_coat(it.gloss, cosine);
     precise float facets = left * mean_of(it.f0 * shares.facets.x + it.f90 * shares.facets.y);
@@ -100,13 +100,13 @@ vec3 lobe_chances(Principled it, float cosine, Shares shares) {
     return chances;
 }
 
-// Value of a BSDF with the cosine, and density.
+// Value of a BSDF, which contains the cosine, and density.
 struct ColorLobe {
     vec3 value;
     float pdf;
 };
 
-// What is not a delta; h: half vector.
+// Value and density of all parts that are not deltas; h: half vector.
 ColorLobe principled_lobe(Principled it, Vertex vertex, vec3 wi, vec3 h) {
     precise Gloss gloss = it.gloss;
     precise Shares from = shares_of(gloss, wi.z);

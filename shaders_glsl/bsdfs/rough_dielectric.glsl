@@ -1,9 +1,9 @@
-// A rough interface between two dielectrics: GGX facets that reflect and refract (Walter et al.,
-// "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007), sampled by visible normals, with
-// G2 = 1 / (1 + L(wo) + L(wi)) for both. What facets lose to each other comes back as one lobe on each side:
+// A rough interface between two dielectrics: GGX facets that reflect and refract (Walter et al., "Microfacet Models
+// for Refraction through Rough Surfaces", EGSR 2007). They are sampled by visible normals, and
+// G2 = 1 / (1 + L(wo) + L(wi)) for both. Light that facets lose to each other comes back as one lobe on each side:
 // a share of (1 - E(wo)) (1 - E(wi)) cos wi / (PI (1 - mean E)), where E is the directional albedo of the facets
 // (Kulla and Conty, "Revisiting Physically Based Shading at Imageworks", 2017). So the whole is reciprocal.
-// Values here are of energy: radiance that crosses scales by eta^2 beside.
+// Values here are of energy: radiance that crosses also scales by eta^2.
 
 bool is_rough_glass(Material material) {
     return HAS_ROUGH_GLASS && material.kind == DIELECTRIC && material.alpha > 0.0;
@@ -13,7 +13,7 @@ bool has_lost_light(Glass glass) {
     return glass.first_albedo >= 0;
 }
 
-// Of light from a direction; `outside`: whether that is.
+// Directional albedo of the facets; `outside`: whether light comes from outside.
 float facet_albedo(Glass glass, bool outside, float cosine) {
     precise vec2 both = albedos(glass.first_albedo, cosine);
     return outside ? both.x : both.y;
@@ -25,7 +25,7 @@ struct Lobe {
     float pdf;
 };
 
-// Of facets with the normal h, which is on the side of wo.
+// Value and density of facets with the normal h, which is on the side of wo.
 Lobe facet_lobe(Vertex vertex, vec3 h, vec3 wi) {
     precise float alpha = vertex.material.alpha;
     precise float cos_o = dot(vertex.wo, h);
@@ -53,7 +53,8 @@ vec3 glass_half(Vertex vertex, vec3 wi) {
     return h;
 }
 
-// Facets, and the light that they lose, as they are sampled: facets by the share that they keep.
+// Value and density of facets together with the light that they lose. Samples take facets with a probability equal to
+// the share of light that these keep.
 Lobe glass_lobe(Vertex vertex, vec3 h, vec3 wi) {
     precise Lobe facets = facet_lobe(vertex, h, wi);
     precise Glass glass = glass_at(vertex.material.details);
