@@ -1,4 +1,4 @@
-// Rays, and all that finds what they meet: what every kernel shares that sends rays.
+// Rays and the search for their hits: shared by all kernels that send rays.
 
 #include "shapes/ray.glsl"
 #include "shapes/hit.glsl"

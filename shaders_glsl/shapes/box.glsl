@@ -1,12 +1,13 @@
-// Rays against boxes, along the edges of each. A box is convex: a ray that leaves it outwards never
-// meets it again, and one that runs inwards ends where it first reaches a face that it runs towards.
+// Rays against boxes, along the edges of each. A box is convex. A ray that leaves it outwards never meets it
+// again; a ray that runs inwards ends at the first face that it runs towards.
 
-// The smallest normal number: a way of no length. A ray inwards from an edge may lie beyond the next face
-// by rounding, and still it ends there: nothing gets out unseen. A point moved by it is the same point.
+// The smallest normal number: a way of no length. By rounding, a ray that runs inwards from an edge may start
+// beyond the next face. It still ends there, so that no ray leaves the box unseen. To move a point by this
+// distance does not change it.
 const float NO_WAY = 1.17549435e-38;
 
-// Where a ray crosses the faces of a box: `first` those that it meets from outside, `last` those that
-// it runs towards from inside.
+// Distances where a ray crosses the faces of a box: `first` at the faces that it meets from outside, `last` at
+// the faces that it runs towards from inside.
 struct BoxCrossing {
     vec3 direction;  // along the edges
     vec3 first;
@@ -20,7 +21,7 @@ vec3 along_edges(Box box, vec3 v) {
     return local;
 }
 
-// A ray along a pair of faces is between them everywhere or nowhere.
+// A ray parallel to a pair of faces is between them everywhere or nowhere.
 vec2 between_faces(float origin, float direction, float half_size) {
     if (direction == 0.0) return vec2(abs(origin) <= half_size ? -FAR : FAR, FAR);
     precise float ahead = direction < 0.0 ? -half_size : half_size;
@@ -46,7 +47,7 @@ float box_distance(Ray ray, Box box, int shape) {
     return crossing.enters > 0.0 ? crossing.enters : crossing.leaves;
 }
 
-// The face is told by the ray, not by the point: at an edge, that alone keeps to the ray's side.
+// The ray decides which face it has met, and not the point: at an edge, only this keeps to the ray's side.
 Surface box_surface(Ray ray, vec3 p, int shape) {
     precise Box box = box_at(shape - first_box());
     precise BoxCrossing crossing = cross_box(ray, box);

@@ -1,13 +1,13 @@
-// Flat surfaces in one place, where one of them emits: a lamp in the plane of a ceiling, or two lamps that overlap.
-// A place has one surface, and every ray sees the same one: of those that it meets within rounding of each other, one
-// that emits towards it comes before others, then the one with the lower number. HAS_COINCIDENT: whether there are such
-// places (glrt/scene/coincidence.py).
+// Flat surfaces in one place, where one of them emits: a lamp in the plane of a ceiling, or two lamps that overlap. A
+// place has one surface, and every ray sees the same one. Among surfaces that a ray meets within rounding of each
+// other, one that emits towards the ray comes before others, then the one with the lower number. HAS_COINCIDENT:
+// whether there are such places (glrt/scene/coincidence.py).
 
-// As shares of the largest coordinate: 2^-19 and 2^-18, 32 and 64 times the rounding of a float. Two tests of a flat
-// shape round by 16 each, and a ray starts off the surface that it leaves by 32.
+// Shares of the largest coordinate: 2^-19 and 2^-18, 32 and 64 times the rounding of a float. Two tests of a flat
+// shape round by 16 times each, and a ray starts 32 times off the surface that it leaves.
 const float APART = 2.0 * CLEARANCE;
 const float TOGETHER = 4.0 * CLEARANCE;
-const float STEEP = 3.90625e-3;  // 2^-8, a cosine: at smaller angles, nearly along them, surfaces do not tie
+const float STEEP = 3.90625e-3;  // 2^-8, a cosine: below it a ray runs nearly along surfaces, which do not tie
 
 float coincident_reach(Ray ray) {
     precise vec3 size = abs(ray.origin);
@@ -21,7 +21,7 @@ vec3 box_face_at(Box box, vec3 place) {
     return beyond.y >= beyond.z ? box.axis_y : box.axis_z;
 }
 
-// The normal of the flat surface that a ray starts on, of either sign; 0 where that is round, and without one.
+// The normal of the flat surface that a ray starts on, of either sign; 0 if that is round, and without a surface.
 vec3 normal_left(Ray ray, float reach) {
     int shape = ray.origin_shape;
     if (shape == NO_SHAPE || (HAS_SPHERE && up_to_sphere(shape))) return vec3(0.0);
@@ -39,7 +39,7 @@ vec3 normal_left(Ray ray, float reach) {
     return normal;
 }
 
-// A ray that starts clear of all surfaces in the place of the one that it leaves.
+// The ray, with an origin clear of all surfaces in the place of the surface that it leaves.
 Ray clear_of(Ray ray) {
     precise float reach = coincident_reach(ray);
     precise vec3 normal = normal_left(ray, reach);
@@ -50,7 +50,7 @@ Ray clear_of(Ray ray) {
 
 struct Claim {
     vec3 normal;
-    bool shines;  // towards the ray
+    bool shines;  // whether it emits towards the ray
 };
 
 Claim claim_of(Ray ray, float t, int shape) {
@@ -64,17 +64,17 @@ Claim claim_of(Ray ray, float t, int shape) {
     return Claim(normal, shines);
 }
 
-// How far apart, along a ray, hits can be that tie.
+// How far apart along a ray two hits may be that tie.
 float tie_length(Ray ray) {
     precise float most = TOGETHER / STEEP * coincident_reach(ray);
     return most;
 }
 
-// Whether a ray that meets a shape at t sees that and not what it has met so far.
+// Whether a ray that meets a shape at t sees this shape instead of the nearest hit so far.
 bool comes_before(Ray ray, float t, int shape, Hit hit) {
     bool is_before = t < hit.distance;
     precise float apart = abs(t - hit.distance);
-    // A loop, for llvmpipe runs what an `if` is about in any case, but leaves out a loop that no lane enters.
+    // A loop, because llvmpipe runs the body of an `if` in any case, but leaves out a loop that no lane enters.
     int ties = t > 0.0 && apart <= tie_length(ray) && hit.shape != NO_SHAPE ? 1 : 0;
     for (int i = 0; i < ties; ++i) {
         precise Claim own = claim_of(ray, t, shape);

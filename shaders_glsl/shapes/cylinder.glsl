@@ -1,16 +1,16 @@
-// Rays against cylinders. One with caps is convex, as a box is: what goes out never meets it again, what
-// runs inwards ends at the wall or at the end that it runs towards. One without is a wall alone.
+// Rays against cylinders. One with caps is convex, as a box is: a ray that leaves it outwards never meets it again, and
+// one that runs inwards ends at the wall or at the end that it runs towards. One without caps is only a wall.
 
-// Where a ray enters and leaves the wall, were it endless, and the space between the ends.
+// Distances where a ray enters and leaves the wall, as if that were endless, and the space between the ends.
 struct CylinderCrossing {
     vec2 wall;
     vec2 ends;
     float start;    // height of the origin over the middle
-    float heading;  // height won along the ray
+    float heading;  // change of that height along the ray
 };
 
-// From the parts of an origin and a direction that lie across the axis. `is_on`: the origin is on the wall;
-// as of a sphere, its roots would be noise along the wall. `is_in`: nothing can miss.
+// Roots for the parts of an origin and a direction that lie across the axis. `is_on`: the origin is on the wall;
+// as with a sphere, its roots would be noise along the wall. `is_in`: the ray cannot miss.
 vec2 cross_wall(vec3 beside, vec3 across, float radius, bool is_on, bool is_in) {
     precise float square = dot(across, across);
     precise float c = dot(beside, beside) - radius * radius;
@@ -45,7 +45,7 @@ CylinderCrossing cross_cylinder(Ray ray, Cylinder cylinder, int shape) {
     return CylinderCrossing(wall, ends, start, heading);
 }
 
-// The distance where the wall stands there, else 0.
+// The distance t if the wall reaches to that height, else 0.
 float on_wall(CylinderCrossing crossing, float t, float half_height) {
     precise float height = crossing.start + t * crossing.heading;
     return abs(height) <= half_height ? t : 0.0;
@@ -70,7 +70,7 @@ float cylinder_distance(Ray ray, Cylinder cylinder, int shape) {
     return enters > 0.0 ? enters : leaves;
 }
 
-// Whether the ray that hits does so at a cap, on the side `inside`.
+// Whether the ray hits a cap, on the side `inside`.
 bool is_at_end(CylinderCrossing crossing, bool inside) {
     return inside ? crossing.ends.y <= crossing.wall.y : crossing.ends.x >= crossing.wall.x;
 }

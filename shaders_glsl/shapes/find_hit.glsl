@@ -1,8 +1,8 @@
-// A ray against all shapes. No offsets and no tolerances, so a scene scaled by a power of two gives
-// the same bits.
+// A ray against all shapes. There are no offsets and no tolerances, so a scene scaled by a power of two
+// gives the same bits.
 
-// The nearest disk, box or cylinder nearer than hit.distance, as find_hit has it: what most scenes are
-// without.
+// The nearest disk, box or cylinder nearer than hit.distance, with the parameters of find_hit. Most scenes
+// have none of these.
 Hit find_among_others(Ray ray, Hit hit, int ignored, bool any) {
     if (HAS_DISK) {
         int i = 0;
@@ -43,9 +43,9 @@ Hit find_among_others(Ray ray, Hit hit, int ignored, bool any) {
     return hit;
 }
 
-// The nearest shape nearer than `limit`, apart from the shape `ignored`; of two at the same
-// distance the one with the lower number, or the one that shows (shapes/coincident.glsl). With `any`, the first that is
-// found.
+// The nearest shape nearer than `limit`, apart from the shape `ignored`. If two shapes are at the same distance, it is
+// the one with the lower number, or the one that comes first by shapes/coincident.glsl. With `any`, it is the first
+// that is found.
 //
 // The loops stand in one function: a function for each kind, with its early exit, costs 1 to 3 % on llvmpipe.
 Hit find_hit(Ray ray, float limit, int ignored, bool any) {
@@ -91,7 +91,7 @@ Hit find_hit(Ray ray, float limit, int ignored, bool any) {
         note_end(i, quad_count());
     }
     if ((HAS_DISK || HAS_BOX || HAS_CYLINDER) && !HAS_TREE) hit = find_among_others(ray, hit, ignored, any);
-    if (!HAS_TREE && !HAS_MESH) return hit;  // the nearest
+    if (!HAS_TREE && !HAS_MESH) return hit;  // the nearest hit
     return find_by_tree(ray, hit, ignored, any);
 }
 

@@ -1,8 +1,8 @@
-// What a ray meets.
+// Hits of rays.
 
 const float FAR = 3.402823466e38;
 
-// As min and max, which look for NaN on llvmpipe: three instructions there, and one for these.
+// Like min and max, without their test for NaN on llvmpipe: that takes three instructions, and this takes one.
 float lesser(float a, float b) { return a < b ? a : b; }
 float larger(float a, float b) { return a > b ? a : b; }
 
@@ -13,7 +13,7 @@ struct Hit {
 
 struct Surface {
     vec3 position;
-    vec3 normal;   // unit; outward on what has an inside, else the shape's own
+    vec3 normal;   // unit; outward on a shape with an inside, else the shape's own
     int shape;
     int material;
     int light;
@@ -26,7 +26,7 @@ void note_end(int reached, int end) {
     if (reached < end) loop_was_cut = true;
 }
 
-// Where no kind of shape was compiled in: nothing asks for it.
+// Used where no kind of shape was compiled in: nothing calls it there.
 Surface no_surface() {
     return Surface(vec3(0.0), vec3(0.0), NO_SHAPE, 0, NO_LIGHT);
 }

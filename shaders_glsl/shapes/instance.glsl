@@ -1,6 +1,6 @@
-// Meshes in trees of their own: their triangles are kept once, wherever they stand and however often. An instance is
-// one place of such a mesh. A triangle there is numbered by its instance, from 1 on, from bit INSTANCE_BITS on, and
-// below by its place in the mesh; 0 stands for the triangles in the tree of the scene.
+// Meshes in trees of their own: their triangles are stored once, however often they are placed. An instance is one
+// place of such a mesh. The number of a triangle there contains the number of its instance, from 1 on, in the bits from
+// INSTANCE_BITS on, and its place in the mesh below; 0 stands for the triangles in the tree of the scene.
 
 int first_triangle() { return first_mesh() + mesh_count(); }
 
@@ -18,9 +18,9 @@ Triangle triangle_of(int shape) {
     return triangle_at(number);
 }
 
-// From the scene to the frame of a mesh, whose unit is a cell of its tree's grid.
+// From the scene to the frame of a mesh. The unit of the frame is a cell of the grid of the mesh's tree.
 struct Inward {
-    vec3 to_x;  // what to multiply a vector by for its coordinates
+    vec3 to_x;  // dot product with a vector: its x in the frame
     vec3 to_y;
     vec3 to_z;
     vec3 origin;  // of the frame, relative to the middle of the tree
@@ -31,7 +31,7 @@ Inward inward_of(Instance instance) {
     return Inward(instance.to_x, instance.to_y, instance.to_z, instance.origin, instance.reach);
 }
 
-// As the packer writes it into a leaf: glrt/packing/instances.py.
+// The same, from a leaf as the packer writes it: glrt/packing/instances.py.
 Inward inward_at(Slot slot) {
     precise vec4 a = uintBitsToFloat(slot.a);
     precise vec4 b = uintBitsToFloat(slot.b);
@@ -39,19 +39,19 @@ Inward inward_at(Slot slot) {
     return Inward(a.xyz, vec3(a.w, b.xy), vec3(b.zw, c.x), c.yzw, uintBitsToFloat(slot.d.z));
 }
 
-// A vector of the scene in the frame of a mesh: distances along a ray stay those of the scene.
+// A vector of the scene in the frame of a mesh. Distances along a ray stay those of the scene.
 vec3 turned_in(Inward inward, vec3 v) {
     precise vec3 turned = vec3(dot(inward.to_x, v), dot(inward.to_y, v), dot(inward.to_z, v));
     return turned;
 }
 
-// A vector that is perpendicular to a surface, taken from the frame of a mesh to the scene.
+// A vector perpendicular to a surface, from the frame of a mesh to the scene.
 vec3 facing_of(Instance instance, vec3 normal) {
     precise vec3 facing = normal.x * instance.to_x + normal.y * instance.to_y + normal.z * instance.to_z;
     return facing;
 }
 
-// A point of the frame of a mesh, relative to the middle of the tree.
+// A point given in the frame of a mesh, relative to the middle of the tree.
 vec3 place_of(Instance instance, vec3 point) {
     precise vec3 place = instance.origin + point.x * instance.from_x + point.y * instance.from_y
                        + point.z * instance.from_z;

@@ -1,8 +1,8 @@
 // Rays against the triangles of meshes. Corners are relative to the middle of the tree, which no camera
-// moves. A triangle is numbered after all shapes: first_triangle() is the number of the first.
+// moves. Triangles are numbered after all shapes: first_triangle() is the number of the first.
 
 // How far a ray starts off the triangle that it leaves, relative to the largest coordinate there: 16 times the
-// rounding of a float, as the distance of a point from the plane of a triangle takes about half as many.
+// rounding of a float. The distance of a point from the plane of a triangle takes about half of that.
 const float CLEARANCE = 9.5367431640625e-7;
 
 int mesh_of(Triangle triangle) { return int(triangle.owner & 0xFFFFu); }
@@ -11,23 +11,23 @@ int owner_of(Triangle triangle, int instance) {
     return instance > 0 ? instance_at(instance - 1).mesh : mesh_of(triangle);
 }
 
-// The number of what is an object of the scene: for a triangle, that of its mesh.
+// The number of the object of the scene that a shape belongs to: for a triangle, the number of its mesh.
 int object_number(int shape) {
     if (!is_triangle(shape)) return shape;
     return first_mesh() + owner_of(triangle_of(shape), instance_of(shape));
 }
 
-// A ray turned into the z axis by a shear: two triangles see a corner or an edge that they share at the
-// same place, to the last bit, and so no ray passes between them ("Watertight Ray/Triangle Intersection",
-// Woop, Benthin, Wald, JCGT 2013).
+// A ray turned into the z axis by a shear. Two triangles then see a shared corner or edge at the same place, to
+// the last bit, and no ray passes between them ("Watertight Ray/Triangle Intersection", Woop, Benthin, Wald,
+// JCGT 2013).
 struct ShearedRay {
     vec3 origin;
-    vec3 x;  // what to multiply a vector by for its coordinates
+    vec3 x;  // dot product with a vector: its x after the shear
     vec3 y;
     vec3 z;
 };
 
-// A triangle knows its neighbours by no number: a ray leaves on its own side of its plane, clear of it.
+// A triangle does not know the numbers of its neighbours. So a ray starts clear of its plane, on the ray's side.
 vec3 start_among_triangles(Ray ray) {
     precise vec3 place = ray.origin - frame.tree_center;
     if (!is_triangle(ray.origin_shape) || instance_of(ray.origin_shape) > 0) return place;
@@ -59,11 +59,11 @@ ShearedRay sheared(Ray ray) {
 
 // How a ray leaves the triangle of an instance.
 struct Left {
-    vec3 shift;  // clear of it, in the frame of its mesh
+    vec3 shift;  // moves the origin clear of the triangle, in the frame of its mesh
     int instance;
 };
 
-// An axis of that frame may be rounded more than others: the shift is the sum of what each of them adds along the
+// The axes of that frame may be rounded differently. So the shift is the sum of what each of them adds along the
 // normal ("Physically Based Rendering", Pharr, Jakob, Humphreys, 4th edition, section 6.8.6).
 Left left_by(Ray ray) {
     if (!HAS_INSTANCE || !is_triangle(ray.origin_shape)) return Left(vec3(0.0), 0);
@@ -93,8 +93,8 @@ vec3 sheared_point(ShearedRay ray, vec3 corner) {
     return point;
 }
 
-// The shares of the corners in the point that the ray meets, not yet divided by their sum; their signs
-// differ where it passes by.
+// The shares of the corners in the point that the ray meets, not yet divided by their sum. Their signs differ
+// where the ray passes by.
 vec3 corner_shares(vec3 a, vec3 b, vec3 c) {
     precise vec3 shares = vec3(c.x * b.y - c.y * b.x, a.x * c.y - a.y * c.x, b.x * a.y - b.y * a.x);
     return shares;
@@ -129,19 +129,19 @@ vec3 corner_normal(Corner corner, int instance) {
     return unit;
 }
 
-// The normal of the surface as it is, which tells its sides.
+// The true normal of a triangle, which defines its two sides.
 vec3 triangle_normal(Triangle triangle, int instance) {
     if (instance == 0) return triangle.normal;
     precise vec3 normal = normalized(facing_of(instance_at(instance - 1), triangle.normal));
     return normal;
 }
 
-// The normal between those of the corners, on the side of the triangle's own.
+// The normal interpolated between the normals of the corners, on the side of the triangle's own.
 vec3 smooth_normal(vec3 own, int instance, vec3 shares, Corner a, Corner b, Corner c) {
     precise vec3 mean = shares.x * corner_normal(a, instance)
                       + shares.y * corner_normal(b, instance)
                       + shares.z * corner_normal(c, instance);
-    if (dot(mean, mean) < 1.0e-6) return own;  // opposite ones, about to vanish
+    if (dot(mean, mean) < 1.0e-6) return own;  // opposite normals nearly cancel
     precise vec3 normal = normalized(mean);
     return dot(normal, own) < 0.0 ? -normal : normal;
 }
@@ -153,7 +153,7 @@ vec3 met_shares(Ray ray, int instance, Corner a, Corner b, Corner c) {
     precise vec3 shares = corner_shares(
         sheared_point(turned, a.position), sheared_point(turned, b.position), sheared_point(turned, c.position));
     precise float sum = shares.x + shares.y + shares.z;
-    if (sum == 0.0) return vec3(1.0, 0.0, 0.0);  // of rounding, where a sliver is seen from its edge
+    if (sum == 0.0) return vec3(1.0, 0.0, 0.0);  // by rounding, where a sliver is seen from its edge
     shares /= sum;
     return shares;
 }
@@ -174,14 +174,14 @@ Surface mesh_surface(Ray ray, int shape) {
     return Surface(place + frame.tree_center, normal, shape, mesh.material, light);
 }
 
-// The normal of the surface as it is, which tells its sides; that of a mesh may be another, for shading.
+// The true normal of a surface, which defines its two sides; a mesh may have another normal for shading.
 vec3 true_normal(Surface surface) {
     if (!HAS_SMOOTH || !is_triangle(surface.shape)) return surface.normal;
     return triangle_normal(triangle_of(surface.shape), instance_of(surface.shape));
 }
 
-// The colour between those of the corners, in the point of a triangle that the ray met: the same to the bit
-// where theirs are.
+// The colour interpolated between the colours of the corners, in the point of a triangle that the ray met. Corners of
+// the same colour give that colour to the bit.
 vec3 vertex_color(Ray ray, int shape) {
     ivec3 corners = triangle_of(shape).corners;
     precise Corner a = corner_at(corners.x);

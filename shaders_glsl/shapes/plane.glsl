@@ -1,6 +1,6 @@
 // Rays against infinite planes. A flat shape is not hit again by a ray that leaves it.
 
-// Infinite or NaN for a parallel ray: no comparison below lets that pass.
+// Infinite or NaN for a parallel ray: the comparisons in the callers reject both.
 float plane_distance(Ray ray, vec3 point, vec3 normal) {
     precise float height = dot(point - ray.origin, normal);
     precise float approach = dot(ray.direction, normal);

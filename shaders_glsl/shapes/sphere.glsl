@@ -1,9 +1,9 @@
-// Rays against spheres. A sphere is hit again by a ray that leaves it only from inside, at the far end
+// Rays against spheres. A ray that leaves a sphere hits it again only from inside, at the far end
 // of its chord.
 
-// The distance along the ray, not above 0 for a miss. The form of Haines et al. ("Precision
+// The distance along the ray, not above 0 for a miss. The formula is that of Haines et al. ("Precision
 // Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019): the discriminant keeps the
-// digits of r^2 from afar, and neither root is a difference of near equals.
+// digits of r^2 for far origins, and neither root is a difference of nearly equal numbers.
 float sphere_distance(Ray ray, Sphere sphere, int shape) {
     precise vec3 to_center = sphere.center - ray.origin;
     precise float along = dot(to_center, ray.direction);
@@ -11,7 +11,7 @@ float sphere_distance(Ray ray, Sphere sphere, int shape) {
     precise float r2 = sphere.radius * sphere.radius;
     precise float discriminant = r2 - dot(beside, beside);
     if (shape == ray.origin_shape) {
-        precise float chord = 2.0 * along;  // twice the way to its middle: along the rim, roots are all noise
+        precise float chord = 2.0 * along;  // twice the way to its middle: along the rim, roots are only noise
         return ray.inward ? chord : 0.0;
     }
     if (discriminant <= 0.0) return 0.0;

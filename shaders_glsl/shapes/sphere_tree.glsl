@@ -1,26 +1,25 @@
 // Rays against the tree over the spheres (glrt/accel/sphere_nodes.py). Its nodes lie in depth-first order and
 // say where to go on when a ray misses them, so a ray needs no stack.
 //
-// The picture is that of the loop over all spheres, bit for bit: a box only says what may be left
-// out, and it is wide enough for the rounding of sphere_distance and of its own test.
+// The picture has the same bits as with the loop over all spheres. A box only says which spheres may be
+// left out, and it is wide enough for the rounding of sphere_distance and of its own test.
 
-// How far the origin of a ray is taken to lie off, relative to its largest coordinate or that of the
-// grid's corner: 64 times the rounding of a float. Boxes are as wide for the rounding of their own
-// corners.
+// Assumed error of the origin of a ray, relative to its largest coordinate or that of the grid's corner: 64 times
+// the rounding of a float. Boxes are wide enough for the rounding of their own corners.
 const float SPHERE_SLACK = 3.814697265625e-6;
 
 // A ray among the cells of the grid.
 struct Slab {
-    vec3 above;    // the origin, moved up and down by its slack
+    vec3 above;    // the origin, moved up by its slack
     vec3 below;
-    vec3 inverse;  // of the direction, finite: 0 times it is 0
+    vec3 inverse;  // of the direction, finite, so that 0 times it is 0
 };
 
-// `grid`: its corner, and the edge of a cell, a power of two.
+// `grid`: the corner of the grid, and the edge of a cell, a power of two.
 Slab slab_of(Ray ray, vec4 grid) {
     precise vec3 size = max(abs(ray.origin), abs(grid.xyz));
     precise float slack = SPHERE_SLACK * max(size.x, max(size.y, size.z));
-    precise float cells = 1.0 / grid.w;  // compilers compute what follows at every node
+    precise float cells = 1.0 / grid.w;  // computed here, because compilers would compute it again at every node
     precise vec3 above = (ray.origin + slack - grid.xyz) * cells;
     precise vec3 below = (ray.origin - slack - grid.xyz) * cells;
     precise vec3 inverse = clamp(grid.w / ray.direction, vec3(-FAR), vec3(FAR));
@@ -40,14 +39,14 @@ bool meets_box(Slab slab, uvec3 box, float limit) {
     return enters <= leaves;
 }
 
-// Without its material, which is that of sphere_at.
+// The sphere of a node without its material, which sphere_at has.
 Sphere sphere_of(Node node) {
     precise vec4 place = uintBitsToFloat(node.sphere);
     return Sphere(place.xyz, place.w, 0, NO_LIGHT);
 }
 
-// The nearest sphere nearer than hit.distance, as find_hit has it. The box is looked at first: that
-// the sphere is then hit nearer saves less than waiting for it costs.
+// The nearest sphere nearer than hit.distance, with the parameters of find_hit. The box is tested first: a nearer hit
+// of the node's sphere could shorten the search, but to wait for this hit costs more than it saves.
 Hit find_sphere_by_tree(Ray ray, Hit hit, int ignored, bool any) {
     precise Slab slab = slab_of(ray, uintBitsToFloat(node_at(0).sphere));
     int end = node_count();  // read once

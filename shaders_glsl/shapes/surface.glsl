@@ -1,6 +1,6 @@
-// Where a ray meets a shape.
+// The surface where a ray meets a shape.
 
-// The point hit, put back onto the shape: the distance alone leaves it beside.
+// The point of a hit, moved back onto the shape: computed from the distance alone it would lie off the shape.
 Surface surface_at(Ray ray, Hit hit) {
     precise vec3 p = ray.origin + hit.distance * ray.direction;
     if (HAS_SPHERE && up_to_sphere(hit.shape)) return sphere_surface(p, hit.shape);

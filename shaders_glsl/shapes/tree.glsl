@@ -1,10 +1,10 @@
-// Rays against the tree over bounded shapes. One loop reads a slot a round, as a node or as a leaf:
-// a driver that computes both sides of a branch then waits for neither.
+// Rays against the tree over bounded shapes. One loop reads one slot per round, as a node or as a leaf. So a
+// driver that computes both sides of a branch waits for neither.
 
 const uint LEAF = 0x80000000u;
 const uint LINK = 0x0FFFFFFFu;
 
-// Keeps a hit that is nearer, or as near and of a lower number.
+// Keeps the new hit if it is nearer, or at the same distance with a lower number.
 Hit nearer(Ray ray, Hit hit, float t, int shape, int ignored) {
     bool is_first = !HAS_COINCIDENT && t == hit.distance && shape < hit.shape;
     if (t > 0.0 && (is_nearer(ray, t, shape, hit) || is_first) && shape != ignored) hit = Hit(t, shape);
@@ -15,7 +15,7 @@ int kind_of(Slot leaf) { return int(leaf.d.w >> 28u & 7u); }
 
 int number_in(Slot leaf) { return int(leaf.d.w & LINK); }
 
-// The shape of a leaf; its packer: glrt/packing/shape_tree.py.
+// Tests the shape of a leaf; its packer: glrt/packing/shape_tree.py.
 Hit meet_leaf(Ray ray, ShearedRay turned, int instance, Slot slot, Hit hit, int ignored) {
     int kind = kind_of(slot);
     precise vec4 a = uintBitsToFloat(slot.a);
@@ -71,17 +71,17 @@ void sort_pair(inout uint a, inout uint b) {
     a = less;
 }
 
-// What is left of a tree to visit. A stack entry, and `group`, list what is left of a node; beside it
-// the slot of its first child.
+// The part of a tree that is left to visit. A stack entry, and `group`, contain the slot of the first child of a node
+// and a list of its children that are left.
 struct Walk {
     TreeStack stack;
     int depth;
-    int place;  // the slot that comes next
+    int place;  // the next slot
     uvec2 group;
     bool goes_on;
-    bool goes_in;     // to the tree of an instance
-    bool gets_out;    // of it, if it is in one
-    int depth_there;  // of the stack when it went in
+    bool goes_in;     // whether the next slot is in the tree of an instance
+    bool gets_out;    // whether the walk leaves that tree, if it is in one
+    int depth_there;  // depth of the stack when the walk entered the instance
 };
 
 Walk walk_from_root() {
@@ -92,12 +92,12 @@ Walk walk_from_root() {
 struct Course {
     TreeRay grid;
     ShearedRay turned;
-    int instance;  // whose tree it is; 0: that of the scene
+    int instance;  // the instance of that tree; 0: the tree of the scene
 };
 
-// Visits a slot on the way to the nearest shape nearer than hit.distance, or as near and of a lower
-// number. Children are visited in the order in which the ray enters them: `group` is how many are left,
-// from bit 24 on, and their numbers, 3 bits each, the nearest first.
+// Visits a slot on the way to the nearest shape nearer than hit.distance, or at the same distance with a lower
+// number. Children are visited in the order in which the ray enters them. `group` contains the number of children
+// left, from bit 24 on, and the numbers of these children, 3 bits each, the nearest first.
 void visit_nearest(Ray ray, Course course, Slot slot, int ignored, precise inout Walk walk, precise inout Hit hit) {
     bool is_leaf = (slot.d.w & LEAF) != 0u;
     if (is_leaf) hit = meet_leaf(ray, course.turned, course.instance, slot, hit, ignored);
@@ -144,7 +144,7 @@ void visit_nearest(Ray ray, Course course, Slot slot, int ignored, precise inout
     walk.group.y = enters ? walk.group.y : rest;
 }
 
-// The same on the way to any shape nearer than hit.distance, in no order: `group` lists children by bits.
+// Visits a slot on the way to any shape nearer than hit.distance, in no order: `group` lists children by bits.
 void visit_any(Ray ray, Course course, Slot slot, int ignored, precise inout Walk walk, precise inout Hit hit) {
     bool is_leaf = (slot.d.w & LEAF) != 0u;
     if (is_leaf) hit = meet_leaf(ray, course.turned, course.instance, slot, hit, ignored);
@@ -178,12 +178,12 @@ void visit_any(Ray ray, Course course, Slot slot, int ignored, precise inout Wal
     walk.group.y &= walk.group.y - 1u;
 }
 
-// What a course follows from: a ray in the frame of a tree.
+// A ray in the frame of a tree: the data that a course is computed from.
 struct Among {
     vec3 start;  // relative to the middle of the grid
-    vec3 clear;  // the same, off the triangle that the ray leaves
+    vec3 clear;  // the same, moved off the triangle that the ray leaves
     vec3 direction;
-    float largest;  // what coordinates are rounded relative to
+    float largest;  // the rounding of coordinates is relative to it
     float cell;
     int instance;
 };
@@ -195,8 +195,8 @@ Among outside_instances(Ray ray) {
     return Among(start, start_among_triangles(ray), ray.direction, largest, frame.tree_cell, 0);
 }
 
-// Where it goes in, where it goes on, or where it gets out. Both are computed: chosen are the few values
-// that all else follows from.
+// The ray in the next tree: where the walk enters an instance, stays in its tree, or leaves it. All cases are
+// computed. The choice is made among few values, from which the rest follows.
 Among next_among(Among now, Among outside, Walk walk, Slot slot, Left left) {
     precise Inward inward = inward_at(slot);
     precise vec3 start = turned_in(inward, outside.start - inward.origin);

@@ -1,18 +1,18 @@
-// A ray against the boxes of the children of a node. A box only says what may be left out, and it is
-// met from farther off than any test of a shape rounds: so the tree gives the hits of the loop over
-// all shapes, bit for bit.
+// A ray against the boxes of the children of a node. A box only says which shapes may be left out. It is
+// wider than the rounding of any test of a shape. So the tree gives the same hits as the loop over all
+// shapes, bit for bit.
 
-// How far the origin of a ray is taken to lie off, relative to the largest coordinate of that, of the
-// tree's middle or of its grid: 128 times the rounding of a float.
+// Assumed error of the origin of a ray, relative to the largest coordinate of the origin, of the tree's middle
+// or of its grid: 128 times the rounding of a float.
 const float SLACK = 7.62939453125e-6;
 const float HALF_GRID = 8388608.0;  // cells
-const float STEEPEST = 1.2379400392853803e27;  // 2^90: nothing below overflows
+const float STEEPEST = 1.2379400392853803e27;  // 2^90: nothing in the tests of boxes overflows
 const uint NO_CHILD = 0xFFFFFFFFu;
 
 // A ray among the cells of the grid.
 struct TreeRay {
-    vec3 before;   // the origin, moved by its slack so that boxes are entered sooner
-    vec3 behind;   // and so that they are left later
+    vec3 before;   // the origin, moved by its slack so that the ray enters boxes sooner
+    vec3 behind;   // the same, so that the ray leaves boxes later
     vec3 inverse;  // of the direction, at most STEEPEST
     bvec3 is_down;
 };
@@ -22,7 +22,7 @@ TreeRay ray_on_grid(vec3 start, float largest, vec3 direction, float cell) {
     precise vec3 place = start + HALF_GRID;
     precise float slack = SLACK * larger(largest, 2.0 * HALF_GRID);
     precise vec3 inverse = clamp(cell / direction, vec3(-STEEPEST), vec3(STEEPEST));
-    bvec3 is_down = lessThan(inverse, vec3(0.0));  // of zeros of both signs, too
+    bvec3 is_down = lessThan(inverse, vec3(0.0));  // also right for zeros of both signs
     precise vec3 shift = vec3(is_down.x ? -slack : slack, is_down.y ? -slack : slack, is_down.z ? -slack : slack);
     return TreeRay(place + shift, place - shift, inverse, is_down);
 }
@@ -35,13 +35,13 @@ TreeRay tree_ray(Ray ray) {
     return ray_on_grid((ray.origin - center) * cells, largest, ray.direction, frame.tree_cell);
 }
 
-// The children of a node as a ray meets them: of all 8, a byte each along each axis.
+// The children of a node as a ray meets them: for all 8, one byte each along each axis.
 struct Children {
-    vec3 cell;        // over the direction
-    vec3 enter_from;  // distance to the start of the first cell, with the slack of each end
+    vec3 cell;        // edge of a cell over the direction
+    vec3 enter_from;  // distance to the start of the first cell, with the slack of entering
     vec3 leave_from;
-    uvec3 near_low;   // where boxes are entered, of the first four
-    uvec3 near_high;  // and of the others
+    uvec3 near_low;   // planes where the ray enters the boxes of the first four
+    uvec3 near_high;  // planes where it enters those of the others
     uvec3 far_low;
     uvec3 far_high;
     uint last;
@@ -68,8 +68,8 @@ Children children_of(Slot slot, TreeRay ray) {
         slot.d.w >> 28u & 7u);
 }
 
-// Where the ray enters the box of a child before `limit`: the bits of the distance, which are in its
-// order, with the number of the child in the last three; else NO_CHILD.
+// Where the ray enters the box of a child before `limit`. The result is the bits of the distance, whose order is that
+// of the distances, with the number of the child in the last three; else NO_CHILD.
 uint meets_child(Children children, uint number, uvec3 near, uvec3 far, float limit) {
     uint shift = 8u * (number & 3u);
     precise vec3 start = vec3(ivec3(near >> shift & 255u)) * children.cell + children.enter_from;

@@ -1,5 +1,5 @@
-// A stack in registers: an array costs llvmpipe half as much again. TREE_STACK entries are enough for the
-// tree of the scene; the others are compiled out.
+// A stack in registers: on llvmpipe, an array takes half as much time again. TREE_STACK entries are enough for
+// the tree of the scene; the others are compiled out.
 
 struct TreeStack {
     uvec2 e0, e1, e2, e3, e4, e5, e6, e7, e8, e9, e10, e11, e12, e13, e14, e15;
