@@ -1,4 +1,4 @@
-// What changes from frame to frame: the camera, the background, counts, and the part of a dispatch.
+// Data that changes from frame to frame: the camera, the background, counts, and the part of a dispatch.
 
 struct Camera {
     vec3 right;     // unit
@@ -20,8 +20,8 @@ struct Frame {
     uint seed;
     ivec2 size;              // of the full frame, pixels
     ivec2 origin;            // of the crop in it
-    int first_sample;        // number of the first that this dispatch adds, from 0
-    int sample_count;        // how many it adds
+    int first_sample;        // number of the first sample that this dispatch adds, from 0
+    int sample_count;        // how many samples it adds
     int sphere_count;
     int plane_count;
     int quad_count;
@@ -30,30 +30,30 @@ struct Frame {
     int cylinder_count;
     int mesh_count;
     int light_count;
-    int first_tile;         // of this dispatch: see tiles.glsl
+    int first_tile;         // first tile of this dispatch: see tiles.glsl
     int tile_stride;
     int node_count;
     int slot_count;
-    vec3 tree_center;       // of its grid, relative to the camera
+    vec3 tree_center;       // centre of the tree's grid, relative to the camera
     float tree_cell;        // edge of a cell, a power of two
-    vec3 sun_direction;      // unit, towards it; where HAS_SUN
-    float sun_versine;       // 1 - cos of half its angle
+    vec3 sun_direction;      // unit, towards the sun; where HAS_SUN
+    float sun_versine;       // 1 - cos of half the angle that the sun fills
     vec3 sun_radiance;
-    float splat_unit;        // radiance of one unit of what particles add to pixels (particles.comp)
+    float splat_unit;        // radiance of one unit of the sums that particles add to pixels (particles.comp)
     vec3 camera_absorption;  // of the glass around the camera, per unit length
-    uint camera_counts;      // of the glasses with a priority around it (integrators/media.glsl)
-    vec3 bounds_center;     // of a ball around all shapes but planes, where particles leave the sun
+    uint camera_counts;      // counts of the glasses with a priority around it (integrators/media.glsl)
+    vec3 bounds_center;     // centre of a ball around all shapes but planes, where particles leave the sun
     float bounds_radius;
-    float background_turn;  // of its image about +y, in turns from 0 to 1
-    float sky_density;      // of its samples per solid angle: lights/sky_sampling.glsl
-    float particles;        // that leave lamps, for each sample of a pixel; where HAS_PARTICLES
-    float aimed;            // their share that is aimed at smooth spheres
-    float linked;           // their share that is linked to the camera through spheres, too, where LINKED is not 0
-    int linked_groups;      // the work groups of them
-    float from_sun;         // the share of the particles that leaves the sun
+    float background_turn;  // rotation of its image about +y, in turns from 0 to 1
+    float sky_density;      // scale of the density of its samples, per solid angle: lights/sky_sampling.glsl
+    float particles;        // number of particles that leave lamps, for each sample of a pixel; where HAS_PARTICLES
+    float aimed;            // share of the particles that is aimed at smooth spheres
+    float linked;           // share that is also linked to the camera through spheres, where LINKED is not 0
+    int linked_groups;      // work groups of these particles
+    float from_sun;         // share of the particles that leaves the sun
     vec3 probe_first;       // place of the first probe of the grid, relative to the camera; where HAS_PROBES
     float probe_edge;       // the shortest edge of a cell
-    vec3 probe_cell;        // its edges
+    vec3 probe_cell;        // the edges of a cell
     int probe_count;
     ivec3 probe_counts;     // along x, y and z
     float coincident_reach; // largest coordinate of surfaces in one place, relative to the camera; where HAS_COINCIDENT

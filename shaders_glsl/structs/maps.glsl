@@ -1,27 +1,27 @@
 // Images on surfaces.
 
 const int NO_MAP = -1;
-const int REPEAT = 0;  // beyond its edges the image, again
-const int MIRROR = 1;  // and again, mirrored
-const int CLAMP = 2;   // or its edge
+const int REPEAT = 0;  // beyond its edges the image starts again
+const int MIRROR = 1;  // the image starts again, mirrored
+const int CLAMP = 2;   // the colour of its edge goes on
 const int ALL_CHANNELS = -1;
 
 struct Map {
-    vec3 u;           // what to multiply (u, v, 1) by for the place along its width, in widths
-    int first;        // of its texels
-    vec3 v;           // the same along its height
+    vec3 u;           // dot product with (u, v, 1): place along the width, in widths
+    int first;        // number of its first texel
+    vec3 v;           // the same along the height
     int width;        // texels
     int height;
     int wrap_u;       // REPEAT, MIRROR or CLAMP
     int is_sharp;     // whether its texels are not interpolated
-    int channel;      // the one that counts, or ALL_CHANNELS
-    int set;          // of the texture coordinates, 0 or 1
+    int channel;      // the channel that is used, or ALL_CHANNELS
+    int set;          // number of the texture coordinates, 0 or 1
     float strength;   // of normals
     int wrap_v;
     int spare;        // fills the row
 };
 
-// Those of a material: numbers of maps, or NO_MAP.
+// Maps of a material: their numbers, or NO_MAP.
 struct Maps {
     int color;
     int emission;
@@ -29,15 +29,15 @@ struct Maps {
     int metallic;
     int roughness;
     int coverage;
-    float cutoff;   // coverage from which on the surface is there; below 0: there in part
+    float cutoff;   // surface from this coverage on; below 0: the surface is partly there
     int crossed;
 };
 
-// How texture coordinates run over a flat shape, numbered from the first plane on.
+// Texture coordinates on flat shapes. Rows are numbered from the first plane on.
 struct Axes {
-    vec3 origin;  // where they are 0, relative to the camera
+    vec3 origin;  // where the coordinates are 0, relative to the camera
     int spare_a;  // fill rows
-    vec3 u;       // what to multiply a vector by for what it adds to them
+    vec3 u;       // dot product with a vector: what it adds to u
     int spare_b;
     vec3 v;
     int spare_c;
@@ -49,8 +49,8 @@ struct Uv {
     vec2 second;
 };
 
-// Where u of the first ones grows there.
+// Tangent of a corner: where u of the first texture coordinates grows.
 struct Tangent {
-    vec3 along;  // in the frame of the mesh, or of the scene as the normal; 0: nowhere
+    vec3 along;  // in the frame of the mesh, or of the scene like the normal; 0: none
     int spare;   // fills the row
 };

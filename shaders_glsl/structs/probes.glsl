@@ -1,21 +1,21 @@
-// What one update of the probes is given (glrt/rendering/probe_tracer.py).
+// Input of one update of the probes (glrt/rendering/probe_tracer.py).
 
-const int MOST_PROBE_RAYS = 256;  // of a probe in one update
-const float WRONG_FACE = -0.2;    // of the distance to a wrong face of a solid, as rays tell it: the probe seems near to it
+const int MOST_PROBE_RAYS = 256;  // rays of one probe in one update
+const float WRONG_FACE = -0.2;    // of the distance to a wrong face of a solid in the rays: probes seem near it
 
 struct ProbeUpdate {
     int rays;     // of each probe
     int number;   // of the update
     uint seed;    // of the set of probes
     int purpose;  // of the rays
-    float kept;   // share of what a map held before (hysteresis)
+    float kept;   // share of the value before that a map keeps (hysteresis)
     int spare_a;  // fill the row
     int spare_b;
     int spare_c;
 };
 
-// Purposes. Rays that look for surfaces bring no light.
+// Purposes of the rays. Rays that look for surfaces bring no light.
 const int FOR_LIGHT = 0;
 const int FOR_DISTANCES = 1;
 const int FOR_PUSHES = 2;
-const int FOR_USE = 3;  // whether a probe is of any
+const int FOR_USE = 3;  // whether a probe can be used

@@ -1,5 +1,5 @@
-// The structs that host and kernels share. The host reads these very files (glrt/gpu/structs.py), so a
-// field is declared once, here. Rows of four words: std140 and std430 then agree.
+// The structs that host and kernels share. The host reads these files (glrt/gpu/structs.py), so a
+// field is declared once, here. Structs have rows of four words, so that std140 and std430 agree.
 
 #include "structs/shapes.glsl"
 #include "structs/material.glsl"

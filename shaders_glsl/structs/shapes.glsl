@@ -1,4 +1,4 @@
-// Shapes, numbered through by kind (glrt/packing/shapes.py has the order). Positions are in scene units, relative
+// Shapes, numbered consecutively by kind (glrt/packing/shapes.py has the order). Positions are in scene units, relative
 // to the camera; axes are those of the world.
 
 const int NO_SHAPE = -1;
@@ -26,7 +26,7 @@ struct Quad {
     vec3 edge_v;
     float height;
     vec3 dual_u;  // dot(dual_u, p - corner) is 0 at the corner, 1 at the end of edge_u
-    float shear;  // of edge_u, along edge_v
+    float shear;  // component of edge_u along edge_v
     vec3 dual_v;
 };
 
@@ -65,15 +65,15 @@ struct Mesh {
     int spare_b;
 };
 
-// Of the meshes, relative to the middle of the tree over shapes.
+// A corner of meshes, relative to the middle of the tree over shapes.
 struct Corner {
     vec3 position;
     uint normal;  // unit, on an octahedron: see unpacked_normal
 };
 
-// Of a corner, where some mesh has colours of its own.
+// Colour of a corner, where some mesh has colours of its own.
 struct Tint {
-    vec3 color;  // linear, by which that of the material is multiplied
+    vec3 color;  // linear; factor of the material's colour
     int spare;   // fills the row
 };
 
@@ -81,21 +81,21 @@ struct Triangle {
     ivec3 corners;
     uint owner;   // its mesh; from bit 16 on its light + 1, or 0
     vec3 normal;  // unit; outwards where the mesh encloses a volume
-    float reach;  // the largest coordinate of its corners, without its sign
+    float reach;  // largest absolute coordinate of its corners
 };
 
-// A place of a mesh that has a tree of its own: from the scene to its frame, and back. The unit of the frame is a
-// cell of the grid of that tree.
+// A place of a mesh that has a tree of its own: maps from the scene to the frame of the mesh, and back. The unit of the
+// frame is a cell of the grid of that tree.
 struct Instance {
-    vec3 to_x;  // what to multiply a vector by for its coordinates
+    vec3 to_x;  // dot product with a vector: its x in the frame
     int mesh;
     vec3 to_y;
-    int triangles;  // row of the first of those of the mesh
+    int triangles;  // row of the first triangle of the mesh
     vec3 to_z;
     float reach;  // from the middle of the tree over shapes to the farthest corner, at most
     vec3 origin;  // of the frame, relative to the middle of the tree over shapes
     int spare_a;  // fill rows
-    vec3 from_x;  // where the unit vectors of the frame lead to
+    vec3 from_x;  // unit vector of the frame in the scene
     int spare_b;
     vec3 from_y;
     int spare_c;
@@ -103,15 +103,15 @@ struct Instance {
     int spare_d;
 };
 
-// Of the tree over the spheres: one of them, and a box around all that lie below it. Packed: to read a
-// node costs more than to take it apart. The first is no node, but the grid on which boxes lie.
+// A node of the tree over the spheres: one sphere, and a box around all spheres below it. It is packed, because reading
+// a node costs more than unpacking it. The first row is not a node, but the grid of the boxes.
 struct Node {
-    uvec4 sphere;  // bits of centre and radius; of the grid: its corner, and the edge of a cell
+    uvec4 sphere;  // bits of centre and radius; for the grid: its corner, and the edge of a cell
     uvec4 box;     // along each axis its end << 16 | its start, in cells; nodes below << 16 | sphere
 };
 
-// Of the tree over the other shapes (glrt/accel/wide_tree.py says what its words hold): a node of 8 children,
-// or a leaf.
+// A slot of the tree over the other shapes: a node of 8 children, or a leaf. glrt/accel/wide_tree.py describes its
+// words.
 struct Slot {
     uvec4 a;
     uvec4 b;
@@ -126,4 +126,4 @@ const int QUAD = 2;
 const int DISK = 3;
 const int BOX = 4;
 const int CYLINDER = 5;
-const int TRIANGLES = 7;  // two of a mesh: see glrt/packing/triangles.py
+const int TRIANGLES = 7;  // two triangles of a mesh: see glrt/packing/triangles.py
