@@ -2,7 +2,7 @@
 
 const int COLORS = 11;
 
-// At a share of it, from 0 to 1; colours are sRGB.
+// The colour at a share of the scale, from 0 to 1; colours are sRGB.
 vec3 color_at(vec3 colors[COLORS], float share) {
     precise float at = clamp(share, 0.0, 1.0) * float(COLORS - 1);
     int below = min(int(at), COLORS - 2);

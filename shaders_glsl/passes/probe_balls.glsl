@@ -1,5 +1,5 @@
-// Probes as balls: what both stages of that pass know. Places are from the eye. Those who include it declare before:
-// the frame, what tells the grid; the maps of probes.
+// Probes as balls: shared by both stages of that pass. Places are relative to the eye. Files that include it declare
+// before: the frame, with the grid; the maps of probes.
 
 vec4 probe_light_at(ivec2 texel) { return texelFetch(probe_light, texel, 0); }
 vec4 probe_distances_at(ivec2 texel) { return texelFetch(probe_distances, texel, 0); }

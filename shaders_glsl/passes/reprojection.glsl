@@ -1,24 +1,24 @@
 // From a pixel of one view to the place in another view where the same surface was seen.
 //
-// Views hold surfaces as integrators/middle_surface.glsl has them. `before` is the other view, and
-// `history` what was shown of it. Places are in its texels, their middles at halves; row 0 is on top.
-// Entry files declare what it reads: reproject.frag has the list, glrt/rendering/history/reprojection.py fills it.
+// Views store surfaces as in integrators/middle_surface.glsl. `before` is the other view, and `history` is the
+// picture that was shown of it. Places are in its texels, with their middles at halves; row 0 is on top.
+// Entry files declare the inputs: reproject.frag lists them, glrt/rendering/history/reprojection.py fills them.
 
 #include "passes/surface_flags.glsl"
 
-const float SAME_PLACE = 0.02;                // off the plane of the surface, of its distance from the eye
+const float SAME_PLACE = 0.02;                // most distance off the plane of the surface, over that from the eye
 const float SAME_NORMAL = 0.906307787;        // cosine of 25 degrees
-const float WHOLE_PIXEL = 1.0 / 512.0;        // of a pixel: a place as near to a middle is there
-const float LEAST_SHARE = 0.01;                // of the nearest four texels, by their weights
+const float WHOLE_PIXEL = 1.0 / 512.0;        // of a pixel: a place this near to a middle is at the middle
+const float LEAST_SHARE = 0.01;                // least weight of the nearest four texels together
 const vec2 NO_PLACE = vec2(-1.0);
 const ivec2 NO_TEXEL = ivec2(-1);
 
-// A surface relative to the eye before; a direction where nothing is met, which is infinitely far.
+// A surface relative to the eye before; a direction where the ray meets nothing, which is infinitely far.
 vec3 seen_before(vec4 surface) {
     return surface.w > 0.0 ? surface.xyz + eye_shift : surface.xyz;
 }
 
-// Where it is in the view before; NO_PLACE behind its eye and outside its picture.
+// Its place in the view before; NO_PLACE behind the eye of that view and outside its picture.
 vec2 place_before(vec3 seen) {
     precise float depth = dot(seen, before_forward);
     if (depth <= 0.0) return NO_PLACE;
@@ -30,15 +30,16 @@ vec2 place_before(vec3 seen) {
     return is_inside ? place : NO_PLACE;
 }
 
-// Whether a surface of the view before is of the object and lies in the plane of what is seen.
+// Whether a surface of the view before is of the same object and lies in the plane of the surface `seen`.
 bool is_there(vec4 there, float object, vec3 seen, vec3 facing) {
     if (there.w != object || object < 0.0) return false;
     precise float off = abs(dot(there.xyz - seen, facing));
     return off <= SAME_PLACE * length(seen);
 }
 
-// Whether a texel of the view before holds that surface: the same object, as far, facing as much. One at an
-// edge holds light of another surface, too, which another one at an edge alone may take, and none that of a lamp.
+// Whether a texel of the view before shows the same surface: the same object, at the same depth, with a similar normal.
+// A texel at an edge also contains light of another surface. Only another texel at an edge may take that light, and
+// none may take light of a lamp.
 bool holds(ivec2 texel, float object, vec3 seen, vec4 facing) {
     ivec2 size = textureSize(before_position, 0);
     if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, size))) return false;
@@ -48,7 +49,7 @@ bool holds(ivec2 texel, float object, vec3 seen, vec4 facing) {
     return dot(other.xyz, facing.xyz) >= SAME_NORMAL;
 }
 
-// Of the four texels around a place the nearest one that holds that surface; NO_TEXEL if none does.
+// The nearest of the four texels around a place that show the same surface; NO_TEXEL if none does.
 ivec2 texel_at(vec2 place, float object, vec3 seen, vec4 facing) {
     ivec2 corner = ivec2(floor(place - 0.5));
     ivec2 nearest = NO_TEXEL;
@@ -74,7 +75,7 @@ vec4 spline_weights(float t) {
     return 0.5 * doubled;
 }
 
-// Of texels around a place, what the spline makes; of one that was held to be the same surface all.
+// The spline's value between texels around a place. All of them have been found to show the same surface.
 vec4 splined(sampler2D picture, ivec2 corner, vec2 share) {
     ivec2 last = textureSize(picture, 0) - 1;
     precise vec4 across = spline_weights(share.x);
@@ -89,7 +90,7 @@ vec4 splined(sampler2D picture, ivec2 corner, vec2 share) {
     return sum;
 }
 
-// Whether the twelve texels around the four in the middle, as far as there are some, hold that surface.
+// Whether the twelve texels around the four in the middle, as far as they exist, are of the same surface.
 bool are_around(ivec2 corner, float object, vec3 seen, vec4 facing) {
     ivec2 last = textureSize(before_position, 0) - 1;
     for (int n = 0; n < 16; n += 1) {
@@ -100,9 +101,9 @@ bool are_around(ivec2 corner, float object, vec3 seen, vec4 facing) {
     return true;
 }
 
-// What `history` holds at a place of a surface: radiance, and the samples that it stands for, 0 where the
-// surface was not seen. Exact in the middle of a texel; a spline between texels that all hold the surface,
-// else what is between those of the nearest four that do.
+// The history at a place of a surface: radiance, and the samples that it stands for, 0 where the surface was not seen.
+// It is exact in the middle of a texel. Between texels that all show the surface it follows a spline; otherwise it is
+// the weighted mean of the nearest four texels that show it.
 vec4 history_at(sampler2D history, vec2 place, float object, vec3 seen, vec4 facing) {
     precise vec2 from_middle = place - 0.5;
     ivec2 nearest = ivec2(floor(place));

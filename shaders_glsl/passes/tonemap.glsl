@@ -6,7 +6,7 @@ const int TONEMAP_ACES = 1;
 const int TONEMAP_AGX = 2;
 const int TONEMAP_NEUTRAL = 3;
 
-const float TONEMAP_LIMIT = 1e9; // every curve is flat to 8 bits long before; squares stay finite
+const float TONEMAP_LIMIT = 1e9; // every curve reaches its limit to 8 bits far below; squares stay finite
 
 // The sRGB transfer function of IEC 61966-2-1, piecewise; 0..1 to 0..1.
 vec3 encode_srgb(vec3 linear) {
@@ -41,7 +41,7 @@ const mat3 AGX_OUTSET = mat3( // by columns
 const float AGX_LOG2_MIN = -12.47393; // 10 stops below 0.18
 const float AGX_LOG2_MAX = 4.026069;  // 6.5 stops above
 
-// AgX base look, as fitted by Benjamin Wrensch: for a display with exponent 2.2, here undone.
+// AgX base look, as fitted by Benjamin Wrensch: it is for a display with exponent 2.2, which is undone here.
 vec3 tone_agx(vec3 color) {
     precise vec3 exponent = log2(max(AGX_INSET * color, vec3(exp2(AGX_LOG2_MIN))));
     precise vec3 x = clamp((exponent - AGX_LOG2_MIN) / (AGX_LOG2_MAX - AGX_LOG2_MIN), 0.0, 1.0);
