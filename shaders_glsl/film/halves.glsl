@@ -1,5 +1,5 @@
-// What a pixel has gathered by layers: means over every second observation, then over the others.
-// How far the two lie apart tells the error of their mean, whatever the weights of the layers.
+// Light of a pixel by layers: means over every second observation, and means over the others.
+// The difference of the two gives the error of their mean, for any weights of the layers.
 struct Layers {
     vec3 means[2 * MOST_LAYERS];
     float counts[2];  // finite samples
@@ -13,7 +13,7 @@ Layers empty_layers() {
     return layers;
 }
 
-// Adds what the sample number `index` brought by layers.
+// Adds the light of the sample number `index` by layers.
 void add_layers(precise inout Layers layers, Path path, int index) {
     if (!is_finite(path.radiance)) return;
     int side = (index / BLOCK) % 2;

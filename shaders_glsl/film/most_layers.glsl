@@ -1,3 +1,3 @@
-// How many layers of light a film keeps at most: paths fill them, and what shows them sums them.
+// The most layers of light that a film keeps: paths fill them, and passes that show them sum them.
 
 const int MOST_LAYERS = 6;

@@ -1,30 +1,30 @@
-// What a pixel has gathered: running means, so that any number of samples keeps its digits.
+// Statistics of a pixel: running means, so that any number of samples keeps its digits.
 //
-// Its error is taken over observations, which are independent of each other: a sample each, or
+// The error is computed over observations, which are independent of each other: one sample each, or
 // BLOCK samples whose points belong together.
 
 struct Pixel {
     vec3 mean;           // of the finite samples, radiance
-    float count;         // how many those are; others are not finite, or lost to the loop limit
+    float count;         // number of the finite samples; others are not finite, or lost to the loop limit
     vec3 variance;       // of the observations: mean squared deviation from their mean
     float observations;
     vec3 block;          // mean of the finite samples of the observation that has begun
-    float begun;         // how many those are
+    float begun;         // number of those samples
 };
 
 Pixel empty_pixel() {
     return Pixel(vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0.0);
 }
 
-// As it is kept between dispatches, where no observation lasts from one to the next.
+// A pixel as stored between dispatches; no observation goes on from one to the next.
 Pixel pixel_of(vec4 mean, vec4 variance) {
     return Pixel(mean.rgb, mean.a, variance.rgb, variance.a, vec3(0.0), 0.0);
 }
 
-// The mean of `count` samples from that of all but x, m += (x - m) / n: a mix of m and x would
-// drift (its weights do not add up to 1 in floating point). A late step is a few units in the last
-// place of m; rounded the same way every time it would pull the mean of an edge, where samples
-// have two values, away by ten times its noise after 2^20 samples. So steps are dithered.
+// The mean of `count` samples from the mean of all but x, m += (x - m) / n. A mix of m and x would drift,
+// since its weights do not add up to 1 in floating point. A late step is a few units in the last place
+// of m. If it were always rounded the same way, the mean of an edge, where samples have two values, would
+// be off by ten times its noise after 2^20 samples. So steps are dithered.
 vec3 next_mean(vec3 mean, vec3 x, float count) {
     precise float weight = 1.0 / count;
     precise vec3 step = (x - mean) * weight;
@@ -36,7 +36,7 @@ vec3 next_mean(vec3 mean, vec3 x, float count) {
 }
 
 // Welford's form, after the mean has moved by its share of the observation x: x less the mean
-// before is x less the mean now, times n / (n - 1).
+// before equals x less the mean now, times n / (n - 1).
 void end_observation(precise inout Pixel pixel) {
     pixel.observations += 1.0;
     if (pixel.observations > 1.0) {
@@ -49,7 +49,7 @@ void end_observation(precise inout Pixel pixel) {
     pixel.begun = 0.0;
 }
 
-// Adds the sample number `index`, from 0; one that is not finite counts for nothing.
+// Adds the sample number `index`, from 0; a sample that is not finite is left out.
 void add_sample(precise inout Pixel pixel, vec3 x, int index) {
     if (is_finite(x)) {
         pixel.count += 1.0;
@@ -60,7 +60,7 @@ void add_sample(precise inout Pixel pixel, vec3 x, int index) {
     if ((index + 1) % BLOCK == 0 && pixel.begun > 0.0) end_observation(pixel);
 }
 
-// The samples from number `index` to before `end` are lost: an observation among them may end.
+// Drops the samples from number `index` to before `end`, which are lost: an observation among them may end.
 void drop_samples(precise inout Pixel pixel, int index, int end) {
     if (end / BLOCK > index / BLOCK && pixel.begun > 0.0) end_observation(pixel);
 }
