@@ -13,7 +13,7 @@ float small_angle(float tangent) {
     return angle;
 }
 
-// From 0 to PI, of a sine that is not below 0.
+// The angle, from 0 to PI, of a sine that is not below 0 and its cosine.
 float angle_of(float sine, float cosine) {
     precise float size = abs(cosine);
     precise float acute = sine < size ? small_angle(sine / size) : 0.5 * PI - small_angle(size / sine);
@@ -21,7 +21,7 @@ float angle_of(float sine, float cosine) {
     return angle;
 }
 
-// Of a direction about the vertical axis: from 0 to 1, in the middle -z, at three quarters +x.
+// The turn of a direction about the vertical axis, from 0 to 1: -z in the middle, +x at three quarters.
 float turns_of(vec3 direction) {
     precise float azimuth = abs(direction.x) + abs(direction.z) > 0.0 ? angle_of(abs(direction.x), -direction.z) : 0.0;
     precise float turned = direction.x < 0.0 ? -azimuth : azimuth;
@@ -29,7 +29,7 @@ float turns_of(vec3 direction) {
     return turns;
 }
 
-// From the zenith, 0, to straight below, 1.
+// The angle of a direction from the zenith, from 0 to 1: 1 is straight down.
 float descent_of(vec3 direction) {
     precise float across = sqrt(direction.x * direction.x + direction.z * direction.z);
     precise float descent = angle_of(across, direction.y) / PI;

@@ -1,5 +1,6 @@
-// Products that every driver sums in one order. GLSL leaves the order of its own `dot` open: Mesa 22 sums from the end,
-// Mesa 25 from the start. A function of the same name and parameters hides it, and all others of that name.
+// Products that every driver sums in the same order. GLSL leaves the order of its own `dot` open: Mesa 22 sums from the
+// end, Mesa 25 from the start. A function of the same name and parameters hides the built-in one, and all its
+// overloads.
 
 float dot(vec2 a, vec2 b) {
     precise float sum = a.x * b.x + a.y * b.y;

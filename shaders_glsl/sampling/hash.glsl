@@ -1,4 +1,4 @@
-// The hash that all random numbers come from.
+// The hash that all random numbers are made by.
 
 // The output permutation RXS-M-XS of PCG over one step of its generator (O'Neill 2014;
 // as a hash: Jarzynski and Olano, "Hash Functions for GPU Rendering", JCGT 2020).

@@ -1,9 +1,9 @@
-// Uniform numbers for one sample of one pixel. The seed is what the thesis keeps in a texture of
-// the frame's size and refreshes every frame; here it is hashed from its place. The dimension
-// counts the numbers drawn.
+// Uniform numbers for one sample of one pixel. The thesis keeps the seed in a texture of the frame's
+// size and refreshes it every frame; here it is hashed from the pixel. The dimension counts the
+// numbers drawn.
 //
-// Independent numbers, or, where BLOCK is above 1, as many points of a net (16: sampling/sobol.glsl,
-// 64: sampling/sobol64.glsl), with a scramble of its own for each block of BLOCK samples.
+// The numbers are independent or, where BLOCK is above 1, points of a net of BLOCK points (16:
+// sampling/sobol.glsl, 64: sampling/sobol64.glsl). Each block of BLOCK samples has its own scramble.
 
 const uint STEP = 0x9E3779B9u;  // from one dimension to the next
 
@@ -11,7 +11,7 @@ struct Sampler {
     uint seed;
     uint dimension;
     uint block;  // seed of the block
-    uint point;  // number of the sample in it
+    uint point;  // number of the sample in the block
 };
 
 // Pixel, sample and seed are hashed together: `hash(pixel) + sample` would give neighbours
@@ -29,13 +29,14 @@ Sampler make_sampler(uint seed) {
 Sampler sampler_at(ivec2 pixel, int index, uint seed) {
     precise Sampler rng = make_sampler(pixel_seed(pixel, index, seed));
     if (BLOCK > 1) {
-        rng.block = pixel_seed(pixel, index / BLOCK, ~seed);  // no sample's seed
+        rng.block = pixel_seed(pixel, index / BLOCK, ~seed);  // differs from the seeds of all samples
         rng.point = uint(index % BLOCK);
     }
     return rng;
 }
 
-// Independent numbers beside those of a sample, a row for each `number`: for choices that are no draws of its path.
+// Independent numbers in addition to those of a sample, a row for each `number`: for choices that are no draws of a
+// path.
 Sampler sampler_beside(Sampler self, int number) {
     return make_sampler(pcg_hash(~self.seed + pcg_hash(uint(number))));
 }
@@ -45,7 +46,7 @@ float next_independent(precise inout Sampler self) {
     return unit_float(pcg_hash(self.seed ^ self.dimension));
 }
 
-// As next_sobol, of blocks of 64.
+// The same as next_sobol, for blocks of 64.
 vec2 next_of_64(Sampler self, uint first, bool last) {
     uint order = pcg_hash(self.block ^ first);
     uint index = owen_scramble_64(self.point, uvec2(order, pcg_hash(order)));
@@ -56,10 +57,10 @@ vec2 next_of_64(Sampler self, uint first, bool last) {
     return sobol_place_64(cell, pcg_hash(self.seed ^ self.dimension));
 }
 
-// Two draws in turn share one shuffled point of four dimensions.
+// Two successive draws share one shuffled point of four dimensions.
 vec2 next_sobol(precise inout Sampler self) {
     self.dimension += STEP;
-    bool last = (self.dimension & 1u) == 0u;  // STEP is odd: every second draw
+    bool last = (self.dimension & 1u) == 0u;  // STEP is odd: true for every second draw
     uint first = last ? self.dimension - STEP : self.dimension;
     if (BLOCK > 16) return next_of_64(self, first, last);
     uint index = owen_scramble(self.point, pcg_hash(self.block ^ first));

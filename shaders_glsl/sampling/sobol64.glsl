@@ -1,5 +1,5 @@
-// 64 points in four dimensions, Owen-scrambled, as sampling/sobol.glsl has 16. The tree of a scramble has 63 nodes, so it
-// takes two words: `tree.y` holds the bits of the last level.
+// 64 points in four dimensions, Owen-scrambled like the 16 of sampling/sobol.glsl. The tree of a scramble has 63 nodes,
+// so it takes two words: `tree.y` holds the bits of the last level.
 
 uint owen_scramble_64(uint v, uvec2 tree) {
     uint flips = (tree.x & 1u) << 5u;
@@ -11,10 +11,11 @@ uint owen_scramble_64(uint v, uvec2 tree) {
     return v ^ flips;
 }
 
-// A point in two of four dimensions, in multiples of 1/64: each bit of its number adds a constant, modulo 2, to the four
-// coordinates, of which the first has the lowest six bits. The first two dimensions are those of Sobol's sequence; the last
-// two are the same in a linear order of the points, chosen of all that are upper triangular: the four have t = 1
-// (Niederreiter 1987), where Sobol's own have 2. `trees`: random bits for x and for y.
+// A point in two of four dimensions, in multiples of 1/64. Each bit of its number adds a constant, modulo 2, to the
+// four coordinates; the first coordinate has the lowest six bits. The first two dimensions are those of Sobol's
+// sequence. The last two are the same in a linear order of the points, chosen from all upper triangular orders: the
+// four dimensions have t = 1 (Niederreiter 1987), and those of Sobol's sequence have t = 2. `trees`: random bits for x
+// and for y.
 uvec2 sobol_cell_64(uint index, bool last, uvec4 trees) {
     uint all = (index & 1u) * 0x820820u ^ (index >> 1u & 1u) * 0x430C10u ^ (index >> 2u & 1u) * 0xA08A08u
              ^ (index >> 3u & 1u) * 0x314F04u ^ (index >> 4u & 1u) * 0xE9A882u ^ (index >> 5u) * 0xBE5CC1u;

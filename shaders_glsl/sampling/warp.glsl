@@ -1,4 +1,4 @@
-// From the unit square to disks, hemispheres and cones, and local frames to stand them in.
+// From the unit square to disks, hemispheres and cones, and local frames to place them in.
 
 const float PI = 3.14159265358979324;
 
@@ -22,7 +22,7 @@ vec3 sample_cosine_hemisphere(vec2 u) {
     return vec3(disk, z);
 }
 
-// Uniform in solid angle over the cone around +z whose cosine is 1 - one_minus_cos; that form
+// Uniform in solid angle over the cone around +z whose cosine is 1 - one_minus_cos. This form
 // keeps the digits of narrow cones.
 vec3 sample_cone(float one_minus_cos, vec2 u) {
     precise float drop = u.x * one_minus_cos;
