@@ -1,18 +1,18 @@
-// Recursive least squares: radiance is taken for slopes p, and the slopes are fitted to all frames so
+// Recursive least squares: radiance is predicted by slopes from p, and the slopes are fitted to all frames so
 // far. Errors count by FORGETTING to the power of their age in frames, and by the weight of their sample.
 //
 // The covariance of the slopes is kept as U D U^T, U unit upper triangular and D diagonal (Bierman,
-// "Factorization Methods for Discrete Sequential Estimation", 1977, chapter V): it stays symmetric and
-// positive. The usual P = (P - g p^T P) / lambda does not in float32: where the predictor varies in
-// one direction alone, as in grey light, P grows by 1 / lambda a frame in all others, and its
-// differences lose their digits.
+// "Factorization Methods for Discrete Sequential Estimation", 1977, chapter V). So it stays symmetric and
+// positive. The usual P = (P - g p^T P) / lambda does not in float32. Where the predictor varies only in
+// one direction, as in grey light, P grows by 1 / lambda a frame in all others, and its differences lose
+// their digits.
 
-const float FORGETTING = 0.998;         // lambda: what errors count for a frame later
-const float START_COVARIANCE = 1000.0;  // delta: of each slope of a fit that begins
+const float FORGETTING = 0.998;         // lambda: weight of an error one frame later
+const float START_COVARIANCE = 1000.0;  // delta: of each slope in a new fit
 const float MOST_TRACE = 4.0 * START_COVARIANCE;
 
 struct Fit {
-    mat4x3 slopes;  // of radiance: a column for 1, and one for each channel of the predictor
+    mat4x3 slopes;  // of radiance: a column for 1, and one for each channel of p
     vec4 spread;    // D
     mat4 factor;    // U
 };
@@ -22,15 +22,15 @@ Fit new_fit(vec3 radiance) {
     return Fit(slopes, vec4(START_COVARIANCE), mat4(1.0));
 }
 
-// Of the covariance.
+// Trace of the covariance.
 float trace(Fit fit) {
     precise float sum = 0.0;
     for (int j = 0; j < 4; j += 1) sum += fit.spread[j] * dot(fit.factor[j], fit.factor[j]);
     return sum;
 }
 
-// Where nothing is learnt, forgetting must not go on for ever: it would end in an overflow, and
-// before that in slopes that the first change of the light throws anywhere.
+// Limits the trace. Where a fit learns nothing, endless forgetting would end in an overflow. Before that, the
+// first change of the light could give the slopes any value.
 Fit limited(Fit before) {
     precise Fit fit = before;
     precise float sum = trace(before);
@@ -38,13 +38,13 @@ Fit limited(Fit before) {
     return fit;
 }
 
-// The fit after another sample.
+// The fit after one more sample.
 Fit corrected(Fit before, vec4 p, vec3 radiance, float weight) {
     precise Fit fit = before;
     precise vec4 along = p * before.factor;  // U^T p
     precise vec4 scaled = before.spread * along;
     precise vec4 gain = vec4(0.0);
-    precise float sum = FORGETTING / weight;  // goes up to FORGETTING / weight + p^T P p
+    precise float sum = FORGETTING / weight;  // grows up to FORGETTING / weight + p^T P p
     for (int j = 0; j < 4; j += 1) {
         precise float next = sum + along[j] * scaled[j];
         fit.spread[j] = before.spread[j] * (sum / next) / FORGETTING;

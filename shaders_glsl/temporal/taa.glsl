@@ -1,7 +1,7 @@
-// Temporal antialiasing: an exponential mean over views, of a history that is kept within what the
-// pixels around show now. Yang, Liu, Salvi, "A Survey of Temporal Antialiasing Techniques" (2020);
-// the limits are those of Salvi, "An Excursion in Temporal Supersampling" (2016): mean and deviation
-// of the neighbourhood, in YCoCg.
+// Temporal antialiasing: an exponential mean over views, with a history that is kept within the range of the
+// pixels around. Yang, Liu, Salvi, "A Survey of Temporal Antialiasing Techniques" (2020). The limits are
+// those of Salvi, "An Excursion in Temporal Supersampling" (2016): mean and deviation of the neighbourhood,
+// in YCoCg.
 
 vec3 ycocg_of(vec3 rgb) {
     precise vec3 ycocg = vec3(0.25 * rgb.r + 0.5 * rgb.g + 0.25 * rgb.b, 0.5 * (rgb.r - rgb.b),
@@ -15,7 +15,7 @@ vec3 rgb_of(vec3 ycocg) {
     return rgb;
 }
 
-// The point of a box nearest to a colour on its way to the middle.
+// The point of a box that is nearest to a colour on its way to the middle.
 vec3 clipped(vec3 color, vec3 middle, vec3 reach) {
     precise vec3 off = color - middle;
     precise float most = 1.0;
@@ -26,8 +26,8 @@ vec3 clipped(vec3 color, vec3 middle, vec3 reach) {
     return inside;
 }
 
-// The share of `count` new samples in their mean with history that stands for `known`: as many as they
-// are, but never less than they have in an exponential mean that gives each `least`.
+// The share of `count` new samples in their mean with a history that stands for `known` samples. It is their part of
+// all samples, but at least their share in an exponential mean that gives each sample `least`.
 float share_of(float count, float known, float least) {
     precise float exponential = 1.0 - pow(1.0 - least, count);
     return max(count / (known + count), exponential);

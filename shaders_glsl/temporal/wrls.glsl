@@ -1,16 +1,16 @@
 // Weighted recursive least squares: radiance of a pixel as a linear function of its own history.
 // Iglesias-Guitian, Mane, Moon, "Real-Time Denoising of Volumetric Path Tracing for Direct Volume
-// Rendering" (2020), with guards: weights are never 0, the covariance is bounded, and what is not
-// finite begins anew.
+// Rendering" (2020), with guards: weights are never 0, the covariance is bounded, and a model that is
+// not finite begins again.
 
-const float FEATURE_SHARE = 0.75;   // of the feature before in the one after, a frame later
+const float FEATURE_SHARE = 0.75;   // share of the old feature in the new one, after one frame
 const float WEIGHT_WIDTH = 0.75;    // h: relative distance at which a sample's weight is 1 / e
-const float LEAST_RADIANCE = 1e-4;  // added where distances are taken relative to a radiance
+const float LEAST_RADIANCE = 1e-4;  // added to a radiance that a distance is divided by
 const float LEAST_WEIGHT = 1e-12;
 
 struct Model {
     vec3 feature;  // z: radiance, averaged exponentially over frames
-    float views;   // that it has seen
+    float views;   // views that it has seen
     Fit fit;
 };
 
@@ -33,16 +33,17 @@ float sample_weight(vec3 radiance, vec3 feature) {
     return max(weight, LEAST_WEIGHT);
 }
 
-// Of the mean of so many frames: those after the first tell that the mean is right, and nothing of slopes.
+// The model after the mean of `frames` first frames. Frames after the first show that the mean is right, but give no
+// information about slopes.
 Prediction first_prediction(vec3 radiance, float frames) {
     precise Fit fit = new_fit(radiance);
     if (frames > 1.0) fit = corrected(fit, vec4(1.0, radiance), radiance, frames - 1.0);
     return Prediction(Model(radiance, 1.0, fit), radiance, 1.0);
 }
 
-// The model after the mean `radiance` of so many `frames` of a view, whose neighbourhood holds values
-// from `lowest` to `highest`. The published predictor is the feature of this view, which holds the
-// sample itself; the delayed one is the feature of the frame before.
+// The model after the mean `radiance` of so many `frames` of a view. Its neighbourhood holds values from
+// `lowest` to `highest`. The published predictor is the feature of this view, which contains the sample
+// itself; the delayed predictor is the feature of the frame before.
 Prediction predicted(Model before, vec3 radiance, vec3 lowest, vec3 highest, float frames, bool is_delayed) {
     precise vec3 off = clamp(before.feature, lowest, highest) - radiance;
     precise vec3 feature = radiance + exp(log(FEATURE_SHARE) * frames) * off;
