@@ -3,7 +3,7 @@
 
 struct Coordinates {
     vec2 first;
-    vec2 second;  // another set, of meshes
+    vec2 second;  // second set, of meshes
 };
 
 Coordinates triangle_coordinates(Ray ray, int shape) {

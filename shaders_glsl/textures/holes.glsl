@@ -1,8 +1,9 @@
-// Surfaces that are there in part, or have holes: light passes where a hashed number is not below the coverage.
-// The number is of the sample, of the vertex that the segment leaves, and of how many surfaces it has passed: not of
-// the order in which a tree is searched. A hole costs no bounce, and rays to lamps pass it by the same rule.
+// Surfaces that are partly there, or have holes: light passes where a hashed number is not below the coverage.
+// The number depends on the sample, on the vertex that the segment leaves, and on how many surfaces it has passed. It
+// does not depend on the order in which a tree is searched. A hole costs no bounce, and rays to lamps follow the same
+// rule.
 
-const uint MOST_HOLES = 1024u;  // of a segment: what lies behind more is not seen
+const uint MOST_HOLES = 1024u;  // of a segment: surfaces behind more holes are not seen
 
 // `passed`: holes of this segment so far.
 bool is_hole(Material material, uint passed) {
@@ -15,7 +16,7 @@ Ray beyond(Ray ray, Surface surface) {
     return Ray(surface.position, ray.direction, surface.shape, enters);
 }
 
-// The nearest surface that is no hole, seen from `ray`, which then starts at the last hole before it.
+// The nearest surface that is no hole, seen from `ray`. Afterwards the ray starts at the last hole before that surface.
 Hit solid_hit(precise inout Ray ray, float limit, int ignored) {
     uint passed = 0u;
     for (; passed <= MOST_HOLES; passed += 1u) {
@@ -30,14 +31,14 @@ Hit solid_hit(precise inout Ray ray, float limit, int ignored) {
     return Hit(limit, NO_SHAPE);
 }
 
-// Whether a flat lamp is what a ray to it sees, in a place that it may share.
+// Whether a ray to a flat lamp sees that lamp, in a place that it may share with other surfaces.
 bool shows(Ray ray, int lamp) {
     if (!HAS_HOLE) return find_hit(ray, FAR, NO_SHAPE, false).shape == lamp;
     precise Ray seen = ray;
     return solid_hit(seen, FAR, NO_SHAPE).shape == lamp;
 }
 
-// Whether anything but the shape `ignored`, a lamp or what a link passes, stands within `limit`.
+// Whether a shape other than `ignored` stands within `limit`. That is a lamp, or a shape that a link passes.
 bool occluded(Ray ray, float limit, int ignored) {
     if (COUNT_RAYS) rays_so_far += 1.0;
     if (HAS_COINCIDENT && ignored != NO_SHAPE && !(HAS_SPHERE && up_to_sphere(ignored))) return !shows(ray, ignored);

@@ -1,7 +1,7 @@
-// The value of an image at texture coordinates: between the middles of four texels bilinear, by hand, so that
-// drivers agree to the bit.
+// The value of an image at texture coordinates. It is bilinear between the middles of four texels, computed here so
+// that drivers agree to the bit.
 
-// Into 0..1, or for a mirrored image too.
+// Maps a place into 0..1, by clamping, repeating or mirroring the image.
 float within(float place, int wrap) {
     if (wrap == CLAMP) return clamp(place, 0.0, 1.0);
     precise float period = wrap == MIRROR ? 2.0 : 1.0;
@@ -10,7 +10,7 @@ float within(float place, int wrap) {
     return clamp(folded, 0.0, 1.0);
 }
 
-// The number of a texel next to the image: across the edge where it repeats.
+// The number of a texel that may lie next to the image: across the edge where the image repeats.
 int wrapped(int number, int size, int wrap) {
     if (wrap != REPEAT) return clamp(number, 0, size - 1);
     if (number < 0) return number + size;

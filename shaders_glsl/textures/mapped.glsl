@@ -1,8 +1,8 @@
-// What images make of a material, and of the normal of its surface.
+// Effects of images on a material and on the normal of its surface.
 
-const float ROUGHNESS_STEPS = 255.0;  // for each there is a row of the struct Gloss
+const float ROUGHNESS_STEPS = 255.0;  // the struct Gloss has a row for each
 
-// Roughness between its steps: energy would be lost or won, as what facets reflect is tabled by step.
+// Roughness is rounded to steps. Between them energy would be lost or won, as the albedos of facets are tabled by step.
 Material with_gloss(Material material, Maps maps, Coordinates at) {
     precise Material found = material;
     if (maps.metallic != NO_MAP) found.metallic *= number_at(maps.metallic, at);
@@ -30,7 +30,7 @@ Material mapped(Ray ray, Surface surface, Material material) {
     return found;
 }
 
-// What the surface is made of that a ray met.
+// The material of a surface at the point that a ray met.
 Material material_of(Ray ray, Surface surface) {
     precise Material material = material_at(surface.material);
     if (HAS_VERTEX_COLOR && is_triangle(surface.shape)) material.color *= vertex_color(ray, surface.shape);
@@ -38,7 +38,7 @@ Material material_of(Ray ray, Surface surface) {
     return mapped(ray, surface, material);
 }
 
-// Where u grows along a surface, and where v falls, of any length.
+// Directions along a surface where u grows and where v falls, of any length.
 struct Tangents {
     vec3 along;
     vec3 up;
@@ -69,7 +69,8 @@ Tangents triangle_tangents(int shape, int set) {
     return Tangents(along, -down);
 }
 
-// Between those of its corners, as images of normals are made for; 0 where a corner has none.
+// The tangent interpolated between those of the corners, for which images of normals are made; 0 where a corner has
+// none.
 vec3 corner_tangent(Ray ray, int shape) {
     ivec3 corners = triangle_of(shape).corners;
     int instance = instance_of(shape);
@@ -105,8 +106,8 @@ Tangents tangents_of(Ray ray, Surface surface, int set) {
     return Tangents(along, -axes.v);
 }
 
-// What leads along u and against v of an image, along u and against v of the surface: an image that is turned or
-// mirrored turns its normals too.
+// Turns an offset along u and against v of an image into an offset along u and against v of the surface. So an image
+// that is turned or mirrored turns its normals too.
 vec2 turned_back(Map map, vec2 offset) {
     precise float size = dot(map.u.xy, map.u.xy);
     if (!(size > 0.0)) return offset;
