@@ -1,12 +1,12 @@
-// Adds samples to one or two AOVs of tiles of a crop of the frame, as trace.comp does to radiance.
+// Adds samples to one or two AOVs in tiles of a crop of the frame, as trace.comp does for radiance.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
 #include "aov.glsl"
 #include "passes/tiles.glsl"
 
-layout(rgba32f) uniform readonly image2D source_mean;             // a: samples in it
-layout(rgba32f) uniform readonly image2D source_variance;         // a: observations
+layout(rgba32f) uniform readonly image2D source_mean;             // a: number of its samples
+layout(rgba32f) uniform readonly image2D source_variance;         // a: number of observations
 layout(rgba32f) uniform readonly image2D source_second_mean;
 layout(rgba32f) uniform readonly image2D source_second_variance;
 layout(rgba32f) uniform writeonly image2D target_mean;

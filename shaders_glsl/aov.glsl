@@ -1,5 +1,5 @@
-// What aov.comp and aov.frag share: the outputs that tell what the first surface behind a pixel is
-// (AOVs, arbitrary output variables). The camera rays are those of the paths of trace.glsl.
+// Shared by aov.comp and aov.frag: outputs that describe the first surface behind a pixel (AOVs,
+// arbitrary output variables). The camera rays are those of the paths of trace.glsl.
 
 #include "structs/scene.glsl"
 #include "scene_arrays.glsl"

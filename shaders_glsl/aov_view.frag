@@ -8,15 +8,15 @@
 uniform sampler2D mean;   // of the AOV, as in aov.comp
 uniform int aov;
 uniform vec3 eye;         // position of the camera, less whole cells
-uniform float distance;   // along the view axis, that is shown as middle grey
-uniform float cell;       // after which colours of the position repeat
-uniform float most;       // bounces that have the last colour
-uniform vec3 colors[COLORS];  // of numbers of bounces, sRGB
+uniform float distance;   // depth along the view axis that is shown as middle grey
+uniform float cell;       // edge of a cell: colours of the position repeat after it
+uniform float most;       // number of bounces that gets the last colour
+uniform vec3 colors[COLORS];  // for numbers of bounces, sRGB
 
 in vec2 place;
 out vec4 color;
 
-// Neighbouring numbers get unlike colours; none is dark.
+// The colour of an object. Neighbouring numbers get very different colours; none is dark.
 vec3 color_of_object(uint number) {
     uint bits = pcg_hash(number);
     precise vec3 share = vec3(uvec3(bits, bits >> 8, bits >> 16) & 255u) / 255.0;
@@ -26,7 +26,7 @@ vec3 color_of_object(uint number) {
 vec3 color_of(vec4 value) {
     if (aov == ALBEDO) return encode_srgb(clamp(value.rgb, 0.0, 1.0));
     if (aov == NORMAL) return 0.5 + 0.5 * value.rgb;
-    if (value.a == 0.0) return vec3(0.0);  // nothing is met
+    if (value.a == 0.0) return vec3(0.0);  // the ray met nothing
     if (aov == BOUNCES) return color_at(colors, value.r / most);
     if (aov == DEPTH) return vec3(distance / (distance + max(value.r, 0.0)));
     if (aov == POSITION) return fract((value.rgb + eye) / cell);

@@ -1,19 +1,19 @@
-// Adaptive temporal antialiasing (temporal/ataa.glsl): what its mask says, pixel by pixel.
+// Adaptive temporal antialiasing (temporal/ataa.glsl): shows each pixel by the method of its mask.
 
 #include "temporal/taa.glsl"
 #include "temporal/ataa.glsl"
 
 uniform sampler2D light;  // the film under its weights
 uniform sampler2D mean;   // of the film; a: finite samples
-uniform sampler2D plain;  // what temporal antialiasing shows, a: samples
+uniform sampler2D plain;  // picture of temporal antialiasing, a: samples
 uniform sampler2D mask;
-uniform sampler2D more;   // of traced pixels: radiance, and samples
+uniform sampler2D more;   // for traced pixels: radiance, and samples
 uniform bool has_more;
 uniform float least;      // share of a new sample
 
 out vec4 shown;           // radiance, and the samples that it stands for
 
-// The film, mapped, between texels; `at` in texels, their middles at halves.
+// The film, mapped, interpolated between texels; `at` in texels, their middles at halves.
 vec3 film_at(vec2 at) {
     ivec2 last = textureSize(light, 0) - 1;
     precise vec2 from_middle = at - 0.5;

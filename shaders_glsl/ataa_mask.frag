@@ -1,8 +1,8 @@
-// Where an exponential mean over views fails (temporal/ataa.glsl).
+// The mask of pixels where an exponential mean over views fails (temporal/ataa.glsl).
 
 uniform sampler2D position;         // of this view
 uniform sampler2D normal;
-uniform sampler2D before_position;  // of the other
+uniform sampler2D before_position;  // of the view before
 uniform sampler2D before_normal;
 uniform vec3 eye_shift;             // from here on as in reproject.frag
 uniform vec3 before_right;
@@ -15,9 +15,9 @@ uniform vec2 before_origin;
 #include "temporal/ataa.glsl"
 
 uniform sampler2D light;    // the film under its weights
-uniform sampler2D brought;  // history as reproject.frag has it
+uniform sampler2D brought;  // history from reproject.frag
 
-out vec4 mask;              // a: the number of what a pixel shows
+out vec4 mask;              // a: the number of what a pixel shows (temporal/ataa.glsl)
 
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);

@@ -1,5 +1,5 @@
-// The models of another view (temporal/wrls_rows.glsl), brought to this one: each from the nearest pixel that
-// showed the same surface. Between pixels they are not blended: slopes of two fits have no mean.
+// The models of another view (temporal/wrls_rows.glsl), moved to this view: each from the nearest pixel that
+// showed the same surface. They are not interpolated between pixels: slopes of two fits have no mean.
 
 uniform sampler2D position;         // as in reproject.frag
 uniform sampler2D normal;
@@ -14,7 +14,7 @@ uniform vec2 before_origin;
 
 #include "passes/reprojection.glsl"
 
-uniform sampler2D known_row[7];  // of models of the view before
+uniform sampler2D known_row[7];  // of the models of the view before
 
 layout(location = 0) out vec4 unused;
 layout(location = 1) out vec4 row[7];  // zeros where the surface was not seen

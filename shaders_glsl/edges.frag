@@ -1,5 +1,6 @@
-// The normals of surfaces.glsl, with EDGE among their flags where samples of a pixel may meet several surfaces:
-// one of the pixels around is of another object, or off the plane of the surface. With a lamp there, LAMP_EDGE, too.
+// The normals of surfaces.glsl, with EDGE among their flags where samples of a pixel may meet several surfaces.
+// There, one of the pixels around is of another object, or off the plane of the surface. If one of these surfaces is a
+// lamp, the flags also contain LAMP_EDGE.
 
 #include "passes/surface_flags.glsl"
 

@@ -1,17 +1,17 @@
-// How wrong history is, for tiles of a picture: whether fresh samples differ from it by more than their noise.
+// The bias of history, for tiles of a picture: whether fresh samples differ from it by more than their noise.
 //
 // In a tile of n pixels the luminances of film and history differ by d on average, with a variance of s2. Their
-// noise alone would give a square of s2 / n. What is beyond MARGIN times that is the square of the bias.
+// noise alone would give a square of s2 / n. The part above MARGIN times that is the square of the bias.
 
 uniform sampler2D light;     // the film under its weights
 uniform sampler2D mean;      // of the film; a: finite samples
-uniform sampler2D brought;   // history as reproject.frag has it
+uniform sampler2D brought;   // history from reproject.frag
 
 out vec4 evidence;           // r: square of the bias, over the variance of one sample
 
 const int TILE = 8;          // pixels along an edge
-const float LEAST = 16.0;    // pixels of a tile that have a history; fewer tell nothing
-const float MARGIN = 6.0;    // of 64 squares of chance 1 in 70 is larger
+const float LEAST = 16.0;    // pixels of a tile that have a history; fewer give no evidence
+const float MARGIN = 6.0;    // of squares by noise alone, from 64 pixels, 1 in 70 is larger
 const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
 
 void main() {
@@ -20,7 +20,7 @@ void main() {
     precise float count = 0.0;
     precise float sum = 0.0;
     precise float squares = 0.0;
-    precise float rarity = 0.0;  // sum of the variances of d, where one sample has 1
+    precise float rarity = 0.0;  // sum of the variances of d, where one sample has variance 1
     for (int y = corner.y; y < end.y; y += 1) {
         for (int x = corner.x; x < end.x; x += 1) {
             precise vec4 history = texelFetch(brought, ivec2(x, y), 0);

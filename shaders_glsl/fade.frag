@@ -1,12 +1,13 @@
-// A film and the history of the view, weighed by their mean squared errors. Samples of both are as noisy, so
-// that variances go with 1 over their numbers; history is biased beside. As the film grows, history fades out.
+// A film and the history of the view, weighed by their mean squared errors. Samples of both have the same noise, so
+// that variances are proportional to 1 over their numbers; history also has a bias. As the film grows, history fades
+// out.
 
 uniform sampler2D light;     // the film under its weights
 uniform sampler2D mean;      // of the film; a: finite samples
-uniform sampler2D brought;   // history as reproject.frag has it
-uniform sampler2D evidence;  // how wrong it is, as evidence.frag has it
+uniform sampler2D brought;   // history from reproject.frag
+uniform sampler2D evidence;  // bias of history, from evidence.frag
 uniform float samples;       // of the film
-uniform float end;           // samples of the film from which on it is shown alone
+uniform float end;           // samples of the film from which on only the film is shown
 
 out vec4 shown;              // radiance, and the samples that it stands for
 

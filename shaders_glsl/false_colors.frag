@@ -1,5 +1,5 @@
-// A number of each pixel as a colour: how unsure its light is, how many of its samples were
-// dropped, how its light differs from another film's, or what is told of its history. Film row 0 is on top.
+// A number of each pixel as a colour: the uncertainty of its light, how many of its samples were
+// dropped, the difference from another film's light, or a number of its history. Film row 0 is on top.
 
 #include "film/most_layers.glsl"
 #include "passes/color_scale.glsl"
@@ -11,21 +11,21 @@ const int SHOWS_HISTORY = 3;
 const int SHOWS_PROBES = 4;
 const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);  // of linear sRGB, Rec. 709
 const vec3 UNKNOWN = vec3(0.5);
-const float DIM = 0.25;  // of the picture below marks, and beside balls
+const float DIM = 0.25;  // brightness of the picture below marks, and around balls
 
-uniform sampler2D light;      // radiance as it is weighed
+uniform sampler2D light;      // radiance, weighed as it is shown
 uniform sampler2D mean;       // of the film, as in trace.comp
-uniform float samples;        // that each pixel has, finite or not
+uniform float samples;        // number of samples of each pixel, finite or not
 uniform sampler2D variance;
 uniform sampler2D layers;     // as in weighting.frag
 uniform sampler2D other;      // radiance to compare with; a: a number of its history
 uniform int shows;
 uniform int layer_count;      // 0: the light is the mean times weights[0]
 uniform vec3 weights[MOST_LAYERS];
-uniform float dark;           // radiance^2, added so that dark pixels do not rule
-uniform float unsure;         // squared standard errors that may be luck alone
-uniform float luck;           // times the true radiance that one sample may show
-uniform float least;          // a number of its history that is above it is one
+uniform float dark;           // radiance^2, added so that dark pixels do not dominate
+uniform float unsure;         // number of squared standard errors that may be chance alone
+uniform float luck;           // most radiance that one sample may show, over the true radiance
+uniform float least;          // numbers of the history count only above it
 uniform bool is_logarithmic;
 uniform vec2 range;           // the numbers of the first and the last colour
 uniform vec3 colors[COLORS];  // sRGB
@@ -33,14 +33,14 @@ uniform vec3 colors[COLORS];  // sRGB
 in vec2 place;
 out vec4 color;
 
-// The twin of glrt.rendering.film.standard_error, squared. Negative below two observations.
+// Squared standard error, by the formula of glrt.rendering.film.standard_error; negative below two observations.
 vec3 variance_of_mean(ivec2 texel) {
     precise vec4 observed = texelFetch(variance, texel, 0);
     if (observed.a < 2.0) return vec3(-1.0);
     return observed.rgb / (observed.a - 1.0);
 }
 
-// From two halves of the observations: the twin of glrt.rendering.weighting.mixed.
+// The same from two halves of the observations, by the formula of glrt.rendering.weighting.mixed.
 vec3 variance_by_halves(ivec2 texel) {
     ivec2 size = textureSize(mean, 0);
     precise vec3 apart = vec3(0.0);
@@ -56,7 +56,7 @@ vec3 variance_by_halves(ivec2 texel) {
     return apart * apart * (counts.x * counts.y / (total * total));
 }
 
-// The brightest of the pixels beside one in the film, by channel; a single pixel is beside itself.
+// The brightest of the pixels next to one in the film, by channel. A film of one pixel gives that pixel.
 vec3 brightest_beside(ivec2 texel) {
     ivec2 last = textureSize(mean, 0) - 1;
     precise vec3 most = last == ivec2(0) ? texelFetch(light, texel, 0).rgb : vec3(0.0);
@@ -68,7 +68,7 @@ vec3 brightest_beside(ivec2 texel) {
     return most;
 }
 
-// The estimated true radiance of a pixel, squared: the twin of glrt.error.estimate.squared_levels.
+// The estimated true radiance of a pixel, squared, by the formula of glrt.error.estimate.squared_levels.
 vec3 squared_level(ivec2 texel, vec3 radiance, vec3 squared) {
     precise vec3 near = min(radiance, brightest_beside(texel));
     precise vec3 own = radiance * radiance;
@@ -85,8 +85,8 @@ float relative_error(ivec2 texel) {
     return sqrt(dot(squared / (level + dark), vec3(1.0 / 3.0)));
 }
 
-// Samples that are not finite, of the pixel and its neighbours: where many pixels share one of the
-// screen, no mark is lost.
+// The most samples that are not finite, among the pixel and its neighbours. So no mark is lost where many
+// pixels share one pixel of the screen.
 float most_dropped(ivec2 texel) {
     ivec2 last = textureSize(mean, 0) - 1;
     int reach = 1 + last.y / 400;
@@ -100,7 +100,7 @@ float most_dropped(ivec2 texel) {
     return most;
 }
 
-// Of luminances, relative to the other's: negative where this film is darker.
+// Difference of luminances, relative to the other's: negative where this film is darker.
 float relative_difference(ivec2 texel) {
     precise float here = dot(texelFetch(light, texel, 0).rgb, LUMINANCE);
     precise float there = dot(texelFetch(other, texel, 0).rgb, LUMINANCE);

@@ -3,8 +3,8 @@
 
 #include "passes/tonemap.glsl"
 
-const float AMBIENT = 0.3;  // share of the light that comes from everywhere
-const vec3 NOTHING = vec3(0.18);  // linear, where no surface is met
+const float AMBIENT = 0.3;  // share of the light that comes from all directions
+const vec3 NOTHING = vec3(0.18);  // linear colour where the ray meets no surface
 
 uniform sampler2D albedo;  // means of AOVs, as in aov.comp
 uniform sampler2D normal;

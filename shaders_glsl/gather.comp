@@ -1,11 +1,11 @@
-// The pixels of a mask that are to be traced, in a list: in any order.
+// Collects the pixels of a mask that need more samples into a list, in any order.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
 #include "temporal/ataa.glsl"
 
 uniform sampler2D mask;
-layout(std430) buffer List { uint listed; uint pixels[]; };  // their number, and x + width y each
+layout(std430) buffer List { uint listed; uint pixels[]; };  // their number; each pixel as x + width y
 
 void main() {
     ivec2 size = textureSize(mask, 0);

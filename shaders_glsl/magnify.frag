@@ -1,6 +1,6 @@
 // Part of a picture on a screen, each of its pixels a square of one colour.
 
-uniform sampler2D picture;  // its row 0 is the lowest, as OpenGL has it
+uniform sampler2D picture;  // row 0 is the lowest, as in OpenGL
 uniform vec2 corner;        // upper left of the part, in pixels of the picture
 uniform vec2 extent;        // of the part
 

@@ -1,4 +1,4 @@
-// Samples of the pixels of a list (gather.comp), to pixels that hold none: no film.
+// Traces samples of the pixels of a list (gather.comp), for pixels without samples: not for a film.
 
 layout(local_size_x = 64) in;
 

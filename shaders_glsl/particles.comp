@@ -1,5 +1,5 @@
-// Follows particles from the lamps, and adds what they bring to the pixels of a crop of the frame, in fixed point:
-// a sum of integers does not depend on the order of its terms, so that pictures have the same bits every time.
+// Follows particles from the lamps, and adds their light to the pixels of a crop of the frame in fixed point. A sum
+// of integers does not depend on the order of its terms, so that pictures have the same bits every time.
 
 layout(local_size_x = 64) in;
 
@@ -8,19 +8,19 @@ layout(local_size_x = 64) in;
 #include "film/splat_unit.glsl"
 
 layout(std430) buffer Splats {
-    uint clipped;  // how many were larger than MOST, and count as that
-    uint refused;  // how many were not finite, and count for nothing
+    uint clipped;  // how many values were larger than MOST; each counts as MOST
+    uint refused;  // how many values were not finite; these are left out
     uint words[];  // of each pixel of each layer: low and high words of red, green and blue, in units of radiance
 };
 layout(std430) buffer Lost { uint lost_samples; };
 
-layout(rgba32f) uniform readonly image2D source_mean;  // the crop, and beside it its layers
+layout(rgba32f) uniform readonly image2D source_mean;  // the crop, with its layers next to it
 
 const float MOST = 7.2057594037927936e16;  // 2^56 units
 const float HIGH = 4294967296.0;           // 2^32
 
-// Of this lane. They are added up at the end: where rays find triangles, llvmpipe lets all lanes of a SIMD group take part
-// in an atomic operation on one word that some of them come to.
+// Counts of this lane, added up at the end. Where rays find triangles, llvmpipe lets all lanes of a SIMD group take
+// part in an atomic operation on one word that only some of them reach.
 uint own_clipped = 0u;
 uint own_refused = 0u;
 

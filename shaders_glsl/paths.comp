@@ -1,6 +1,6 @@
-// Traces samples of one pixel again, by the path text and the random numbers of trace.comp, and writes down each
-// vertex of their paths and each light that they find; or, OF_PARTICLES, as particles.comp does it, the particles that
-// reach the pixel. Records come in any order: each tells its place.
+// Traces samples of one pixel again, with the code of paths and the random numbers of trace.comp. It writes down each
+// vertex of their paths and each light that they find. OF_PARTICLES: it traces the particles that reach the pixel, as
+// particles.comp does. Records come in any order, and each contains its place.
 
 layout(local_size_x = 32) in;
 
@@ -9,11 +9,11 @@ layout(local_size_x = 32) in;
 
 layout(std430) buffer Replay {
     ivec2 place;         // of the pixel in the full frame
-    uint vertices_seen;   // records that there are, more than `most` of them are not written
+    uint vertices_seen;   // number of records; only the first `most` of them are written
     uint lights_seen;
-    uint most_vertices;  // 0: none is wanted
+    uint most_vertices;  // 0: none are wanted
     uint most_lights;
-    int first_lane;      // of the particles that are followed
+    int first_lane;      // first lane of the particles that are followed
     int end_lane;
     SampleRecord samples[];
 };
@@ -21,7 +21,7 @@ layout(std430) writeonly buffer Vertices { VertexRecord vertices[]; };
 layout(std430) writeonly buffer Lights { LightRecord lights[]; };
 layout(std430) buffer Lost { uint lost_samples; };  // as in trace.comp
 
-// Of the vertex that the path is at, and of the light that it finds next.
+// Records of the vertex that the path has reached, and of the light that it finds next.
 precise VertexRecord here = VertexRecord(
     vec3(0.0), 0, vec3(0.0), 0, vec3(0.0), 0, vec3(0.0), EVENT_ENDED, vec3(0.0), 0.0, 0.0, 1.0, 0, 0);
 precise LightRecord light_here = LightRecord(vec3(0.0), 0, vec3(0.0), 0, 0, 0, 0, 0, 0.0, 0.0, 1.0, 0.0, vec3(0.0), 0);
@@ -68,7 +68,7 @@ void record_scattering(vec3 shading_normal, vec3 direction, float pdf, bool cros
 
 void record_passing(int event) {
     here.event = event;
-    begin_light();  // what shines there is not gathered
+    begin_light();  // emission there is not gathered
 }
 
 void record_survival(float survival) { here.survival = survival; }
@@ -85,7 +85,7 @@ void record_sample(vec3 direction, float distance) {
     light_here.distance = distance;
 }
 
-// What is dark is not written down, nor where nothing was sampled.
+// Light of radiance 0 is not written down, nor a sample of density 0.
 void record_light(int strategy, int object, float pdf, vec3 radiance, vec3 added) {
     bool is_nothing = strategy == BY_SAMPLING && pdf == 0.0;
     if (radiance != vec3(0.0) && !is_nothing) {
@@ -114,10 +114,10 @@ void record_end(int reason) { end_reason = reason; }
 
 const int PARTICLE_GROUP = 64;  // particles, as in particles.comp
 
-int lamp = 0;                        // object that a particle is from
-precise vec3 shining = vec3(0.0);    // radiance there
+int lamp = 0;                        // object that the particle comes from
+precise vec3 shining = vec3(0.0);    // its radiance there
 
-// Of what a particle brings the frame, what it brings this pixel: a mean over the particles of a sample.
+// Adds this pixel's share of the light that a particle brings to the frame: a mean over the particles of a sample.
 void splat(vec2 film, vec3 radiance, int layer) {
     if (ivec2(floor(film)) != place) {
         begin_light();

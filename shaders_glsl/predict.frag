@@ -1,4 +1,4 @@
-// Weighted recursive least squares (temporal/wrls.glsl): what the model of each pixel predicts of the film, and
+// Weighted recursive least squares (temporal/wrls.glsl): the prediction of each pixel's model for the film, and
 // the model after it.
 
 #include "film/finite.glsl"
@@ -6,10 +6,10 @@
 #include "temporal/wrls.glsl"
 #include "temporal/wrls_rows.glsl"
 
-uniform sampler2D light;         // the film as reconstruct.frag has it
-uniform sampler2D known_row[7];  // of the models that were brought to this view
+uniform sampler2D light;         // the film from reconstruct.frag
+uniform sampler2D known_row[7];  // of the models that were moved to this view
 uniform bool has_history;
-uniform float frame;             // samples of a frame: as many as the view before had
+uniform float frame;             // samples of a frame: the count of the view before
 uniform bool is_delayed;         // the predictor is the feature of the frame before
 
 layout(location = 0) out vec4 prediction;  // radiance, and the weight of the film
@@ -30,7 +30,7 @@ Prediction of_no_sample(Model model) {
     return Prediction(model, radiance, 0.0);
 }
 
-// Of the film in the nearest 3 x 3 pixels the limits in which a feature is kept.
+// The prediction with a film. The film's nearest 3 x 3 pixels give the limits in which a feature is kept.
 Prediction with_film(Model model, vec3 fresh, float count, ivec2 texel) {
     ivec2 last = textureSize(light, 0) - 1;
     precise vec3 lowest = fresh;
@@ -55,7 +55,7 @@ void main() {
         if (count > 0.0) made = with_film(model, fresh, count, texel);
         else made = of_no_sample(model);
     } else if (count <= 0.0) {
-        made.model.views = 0.0;  // nothing is known
+        made.model.views = 0.0;  // the model is not used
     }
     prediction = vec4(made.radiance, made.weight);
     precise Rows rows = rows_of(made.model);

@@ -1,21 +1,21 @@
-// What is shown of predictions: the mean of those around a pixel whose features are like its own (a bilateral
-// filter), since the errors of neighbours are independent. As the film grows, it takes their place.
+// The picture of predictions: the mean over pixels around whose features are similar (a bilateral filter). It helps
+// since the errors of neighbours are independent. As the film grows, it replaces the predictions.
 
 #include "film/finite.glsl"
 #include "temporal/least_squares.glsl"
 #include "temporal/wrls.glsl"
 
-uniform sampler2D prediction;  // of predict.frag
-uniform sampler2D feature;     // its first row of models
+uniform sampler2D prediction;  // from predict.frag
+uniform sampler2D feature;     // first row of the models of predict.frag
 uniform sampler2D light;       // the film under its weights
 uniform float samples;         // of the film
-uniform float end;             // samples of the film from which on it is shown alone
+uniform float end;             // samples of the film from which on only the film is shown
 
-out vec4 shown;                // radiance, and views that the model has seen
+out vec4 shown;                // radiance, and number of views that the model has seen
 
 const int REACH = 2;             // pixels
 const float PIXELS = 1.5;        // standard deviation of weights by distance
-const float LIKENESS = 0.3;      // and by relative distance of features
+const float LIKENESS = 0.3;      // standard deviation of weights by relative distance of features
 
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);

@@ -1,6 +1,6 @@
-// A picture with its probes as balls, each showing what its probe holds by direction: as radiance, the irradiance that
-// would light a white matte surface there; as a, the mean distance, below 0 beside balls.
-// Row 0 is that of the film: on top.
+// A picture with its probes as balls. Each ball shows the data of its probe by direction. Radiance: the irradiance
+// there as it would light a white matte surface. a: the mean distance, below 0 around the balls. Row 0 is that of the
+// film: on top.
 
 struct ProbeGrid {
     vec3 probe_first;
@@ -8,7 +8,7 @@ struct ProbeGrid {
     ivec3 probe_counts;
 };
 uniform ProbeGrid frame;
-uniform sampler2D probe_light;  // maps, as in probes/maps.glsl
+uniform sampler2D probe_light;  // maps: see probes/maps.glsl
 uniform sampler2D probe_distances;
 uniform sampler2D probe_places;
 uniform vec3 right;    // of the camera: half the width and height of the frame, at distance 1
@@ -19,7 +19,7 @@ uniform float radius;  // of a ball
 #include "passes/probe_balls.glsl"
 
 uniform sampler2D light;  // radiance of the picture
-uniform sampler2D depth;  // along the view axis, of what each pixel shows; a: 0 for nothing
+uniform sampler2D depth;  // of the surface that each pixel shows, along the view axis; a: 0 for none
 
 flat in int probe;
 in vec2 place;
@@ -37,7 +37,7 @@ void main() {
     precise float b = dot(direction, middle);
     precise float root = b * b - a * (dot(middle, middle) - radius * radius);
     if (root < 0.0) discard;
-    precise float away = (b - sqrt(root)) / a;  // along the view axis: forward is of length 1
+    precise float away = (b - sqrt(root)) / a;  // along the view axis: forward has length 1
     precise vec4 behind = texelFetch(depth, texel, 0);
     if (behind.a > 0.0 && away > behind.r) discard;
     precise vec3 normal = normalized(away * direction - middle);

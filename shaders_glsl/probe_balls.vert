@@ -1,4 +1,5 @@
-// A square around the ball of each probe that is of use, as a strip of four vertices; below them, one over the whole screen.
+// A square around the ball of each probe that is used, as a strip of four vertices; below them, one over the whole
+// screen.
 
 struct ProbeGrid {
     vec3 probe_first;
@@ -6,7 +7,7 @@ struct ProbeGrid {
     ivec3 probe_counts;
 };
 uniform ProbeGrid frame;
-uniform sampler2D probe_light;  // maps, as in probes/maps.glsl
+uniform sampler2D probe_light;  // maps: see probes/maps.glsl
 uniform sampler2D probe_distances;
 uniform sampler2D probe_places;
 uniform vec3 right;    // of the camera: half the width and height of the frame, at distance 1
@@ -18,13 +19,14 @@ uniform float radius;  // of a ball
 
 in int number;  // of a probe; -1: the whole screen
 
-const float NEAREST = 1.25;  // radii: how far before the eye a ball is at least, to be drawn
+const float NEAREST = 1.25;  // in radii: the least distance of a drawn ball before the eye
 
 flat out int probe;
 out vec2 place;  // on the screen, from -1 to 1; upwards
 
-// Where a ball ends along one axis of the screen, at distance 1, from left to right (Mara and McGuire, "2D Polyhedral
-// Bounds of a Clipped, Perspective-Projected 3D Sphere", JCGT 2013). `across`: of its middle; it lies before the eye.
+// The ends of a ball along one axis of the screen, at distance 1, from left to right (Mara and McGuire, "2D Polyhedral
+// Bounds of a Clipped, Perspective-Projected 3D Sphere", JCGT 2013). `across`: place of its middle on that axis. The
+// ball lies before the eye.
 vec2 ends_of_ball(float across, float away, float radius) {
     precise float tangent = sqrt(across * across + away * away - radius * radius);
     precise vec2 shift = vec2(-radius, radius);

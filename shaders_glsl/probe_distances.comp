@@ -1,4 +1,4 @@
-// Puts the distances that the rays of one update have found into the maps of the probes: a lane a texel.
+// Blends the distances found by the rays of one update into the maps of the probes: one lane per texel.
 
 layout(local_size_x = 64) in;
 

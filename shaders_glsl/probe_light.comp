@@ -1,4 +1,4 @@
-// Puts the light that the rays of one update have found into the maps of the probes: a lane a texel.
+// Blends the light found by the rays of one update into the maps of the probes: one lane per texel.
 
 layout(local_size_x = 64) in;
 
@@ -19,7 +19,7 @@ layout(rgba32f) uniform image2D updated_map;
 
 const int TEXELS = (LIGHT_SIDE + 2) * (LIGHT_SIDE + 2);  // of a map
 
-// Irradiance is PI times the mean of radiance by the cosine. Rays that end in a solid say nothing.
+// Irradiance is PI times the mean of radiance, weighted by the cosine. Rays that end in a solid are left out.
 void blend_light(int probe, ivec2 texel) {
     precise vec3 normal = direction_of_texel(inner_texel(texel, LIGHT_SIDE), LIGHT_SIDE);
     precise Blend blend = Blend(vec3(0.0), 0.0);

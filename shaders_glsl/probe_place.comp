@@ -1,4 +1,4 @@
-// Moves probes out of solids and away from surfaces, by what rays from them have met: a lane a probe.
+// Moves probes out of solids and away from surfaces, by the hits of their rays: one lane per probe.
 
 layout(local_size_x = 64) in;
 

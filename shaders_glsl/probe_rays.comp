@@ -1,4 +1,4 @@
-// Sends rays from probes: a lane a ray. Each brings the light that comes along it, and the distance to what it meets.
+// Sends rays from probes: one lane per ray. Each finds the light that comes along it, and the distance to its hit.
 
 layout(local_size_x = 64) in;
 
@@ -12,12 +12,12 @@ layout(std140) uniform ProbeBlock {
     vec4 directions[MOST_PROBE_RAYS];  // unit
 };
 layout(std430) buffer Lost { uint lost_samples; };
-layout(rgba32f) uniform writeonly image2D target_rays;  // a row a probe; a: distance, below 0 of a wrong face, 0: lost
+layout(rgba32f) uniform writeonly image2D target_rays;  // a row per probe; a: distance (below 0: wrong face, 0: lost)
 
-// Radiance along a ray from a probe, and how far it goes.
+// Radiance along a ray from a probe, and the distance to its hit.
 vec4 light_along(Ray ray, precise inout Sampler rng) {
     precise Path path = start_path(ray);
-    if (update.purpose != FOR_LIGHT) path.depth = frame.bounces;  // it ends where it meets something
+    if (update.purpose != FOR_LIGHT) path.depth = frame.bounces;  // the path ends at its first hit
     bool goes = extend_path(path, rng);
     if (has_met && is_wrong_face(met_object, met_normal, ray.direction)) {
         precise vec4 wrong = vec4(vec3(0.0), WRONG_FACE * met_distance);

@@ -1,5 +1,5 @@
-// The film under a Gaussian filter one pixel wide, as the paper of temporal/wrls.glsl has it, but that light of
-// another object stays out of it: so outlines stay sharp.
+// The film under a Gaussian filter one pixel wide, as in the paper of temporal/wrls.glsl. In addition, light of another
+// object is left out, so that outlines stay sharp.
 
 uniform sampler2D light;     // the film under its weights
 uniform sampler2D mean;      // of the film; a: finite samples
@@ -9,7 +9,7 @@ uniform sampler2D position;  // w: 1 + the number of the object behind the middl
 out vec4 reconstructed;      // radiance, and finite samples of the pixel
 
 const float PIXELS = 0.5;    // standard deviation
-const float FEW = 2.0;       // samples as in the paper; of more, neighbours count for less: there is less noise
+const float FEW = 2.0;       // samples as in the paper; with more, neighbours count less, since there is less noise
 
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);

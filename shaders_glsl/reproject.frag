@@ -1,23 +1,23 @@
-// The history of another view, brought to this one: radiance, and the samples that it stands for.
+// The history of another view, moved to this view: radiance, and the samples that it stands for.
 
 uniform sampler2D position;         // of this view
 uniform sampler2D normal;
-uniform sampler2D before_position;  // of the other
+uniform sampler2D before_position;  // of the view before
 uniform sampler2D before_normal;
 uniform vec3 eye_shift;             // from the eye before to the eye now
 uniform vec3 before_right;          // of the camera before: half the width and height of the frame, at distance 1
 uniform vec3 before_up;
 uniform vec3 before_forward;        // unit
 uniform vec2 before_frame;          // size of its full frame, pixels
-uniform vec2 before_origin;         // of its crop
+uniform vec2 before_origin;         // origin of its crop
 
 #include "passes/reprojection.glsl"
 
-uniform sampler2D history;     // what was shown of the view before
-uniform float most;            // samples that it may stand for
+uniform sampler2D history;     // picture that was shown of the view before
+uniform float most;            // samples that history may stand for
 uniform float most_specular;   // the same in mirrors and glass, and out of focus
-uniform float most_at_edges;  // where samples may meet another surface, too
-uniform float density;         // pixels of the view before for each of this one, at most 1
+uniform float most_at_edges;  // the same where samples may meet another surface, too
+uniform float density;         // pixels of the view before for each pixel of this view, at most 1
 
 out vec4 brought;
 

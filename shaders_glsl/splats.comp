@@ -1,4 +1,4 @@
-// Adds one observation to the film of particles: what they have added to each pixel, which begins again at 0.
+// Adds one observation to the film of particles: the sums that they added to each pixel, which start again at 0.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -23,7 +23,7 @@ layout(std430) buffer Splats {  // as in particles.comp
 
 const float HIGH = 4294967296.0;  // 2^32
 
-// Of a word and the one above it.
+// Takes the sum of a word and the one above it, and sets both to 0.
 float take_sum(int at) {
     precise float sum = float(words[at + 1]) * HIGH + float(words[at]);
     words[at] = 0u;
@@ -40,7 +40,7 @@ void add_observation(ivec2 texel, vec3 radiance) {
     imageStore(target_variance, texel, vec4(pixel.variance, pixel.observations));
 }
 
-// What all particles bring, and beside it the layers of that, if there are any.
+// Adds the light of all particles, and its layers next to it, if there are any.
 void main() {
     ivec2 picture = ivec2(imageSize(target_mean).x / (LAYERS + 1), imageSize(target_mean).y);
     ivec2 corner = tile_corner(picture, frame.first_tile + int(gl_WorkGroupID.x));

@@ -1,4 +1,4 @@
-// What surfaces.comp and surfaces.frag share: the first surface behind the middle of each pixel, by which
+// Shared by surfaces.comp and surfaces.frag: the first surface behind the middle of each pixel. By these surfaces,
 // samples are found again when the camera has moved.
 
 #include "structs/scene.glsl"

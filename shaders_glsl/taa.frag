@@ -1,14 +1,14 @@
-// Temporal antialiasing (temporal/taa.glsl): what was shown of the view before, kept near what the
-// pixels around show now, blended with the film.
+// Temporal antialiasing (temporal/taa.glsl): the picture of the view before, kept near the values of the
+// pixels around, blended with the film.
 
 #include "temporal/taa.glsl"
 
 uniform sampler2D light;    // the film under its weights
 uniform sampler2D mean;     // of the film; a: finite samples
-uniform sampler2D brought;  // history as reproject.frag has it
+uniform sampler2D brought;  // history from reproject.frag
 uniform bool has_history;
 uniform float least;        // share of a new sample
-uniform float reach;        // of history about the mean of the neighbourhood, in its deviations; negative: any
+uniform float reach;        // most distance of history from the mean around, in deviations; negative: no limit
 
 out vec4 shown;             // radiance, and the samples that it stands for
 

@@ -1,6 +1,6 @@
-// Adds samples to tiles of a crop of the frame, one tile a work group. Source and target are
-// swapped when all tiles have them; the samples of one dispatch go through registers, so that
-// one dispatch of N equals N of one, bit for bit.
+// Adds samples to tiles of a crop of the frame, one tile per work group. Source and target are
+// swapped when all tiles have the samples. Samples of one dispatch are added in registers, so that
+// one dispatch of N samples equals N dispatches of one, bit for bit.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -21,7 +21,7 @@ layout(rgba32f) uniform writeonly image2D target_reservoirs;
 layout(std430) buffer Lost { uint lost_samples; };
 
 Pixel load_pixel(ivec2 texel) {
-    if (frame.is_empty != 0) return empty_pixel();  // whatever the source holds
+    if (frame.is_empty != 0) return empty_pixel();  // the source may hold anything
     precise vec4 mean = imageLoad(source_mean, texel);
     precise vec4 variance = imageLoad(source_variance, texel);
     precise vec4 block = vec4(0.0);
@@ -29,7 +29,7 @@ Pixel load_pixel(ivec2 texel) {
     return Pixel(mean.rgb, mean.a, variance.rgb, variance.a, block.rgb, block.a);
 }
 
-// Layers lie side by side: one half of the observations above, the other below.
+// Layers lie side by side: one half of the observations above, the other half below.
 ivec2 layer_place(ivec2 texel, int slice) {
     return imageSize(target_mean) * ivec2(slice % DIVISOR, slice / DIVISOR) + texel;
 }

@@ -1,4 +1,4 @@
-// The kernel of trace.comp for OpenGL 4.1, which has no compute shaders: a fragment is a pixel of
+// The kernel of trace.comp for OpenGL 4.1, which has no compute shaders. A fragment is a pixel of
 // the tiles that trace.vert draws, and the target textures are those of a framebuffer.
 
 #include "integrators/no_record.glsl"

@@ -1,6 +1,6 @@
-// What trace.comp and trace.frag share: the table of contents of the path tracer. A file uses only what
-// stands above it. scene_arrays.glsl is the one that is written for each scene, by
-// glrt/gpu/struct_arrays.py: it declares the arrays of the scene and how each is read.
+// Shared by trace.comp and trace.frag: the table of contents of the path tracer. A file uses only files
+// that stand above it. glrt/gpu/struct_arrays.py writes scene_arrays.glsl for each scene: it declares the
+// arrays of the scene and how to read each.
 
 #include "sampling/dot.glsl"
 #include "structs/scene.glsl"

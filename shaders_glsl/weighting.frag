@@ -1,12 +1,13 @@
-// A film weighed: the sum of its layers, or its mean, each by a factor, and what particles bring. Film row 0 is on top.
+// A film under weights: the sum of its layers, or its mean, each times a factor, and the light of particles. Film row 0
+// is on top.
 
 #include "film/most_layers.glsl"
 
 uniform sampler2D mean;
-uniform sampler2D layers;       // side by side: over one half of the observations, below over the other
-uniform int layer_count;        // 0: the mean alone is weighed
+uniform sampler2D layers;       // side by side: over one half of the observations, below over the other half
+uniform int layer_count;        // 0: only the mean is weighed
 uniform vec3 weights[MOST_LAYERS];
-uniform sampler2D particles;    // what they bring, and beside that its layers
+uniform sampler2D particles;    // light of particles, with its layers next to it
 uniform bool has_particles;
 
 in vec2 place;
@@ -22,7 +23,7 @@ vec3 layer_mean(ivec2 texel, int layer) {
 
 void main() {
     ivec2 size = textureSize(mean, 0);
-    ivec2 texel = ivec2(gl_FragCoord.xy);  // of a target as large as the film
+    ivec2 texel = ivec2(gl_FragCoord.xy);  // the target is as large as the film
     precise vec3 sum = vec3(0.0);
     for (int i = 0; i < layer_count; i += 1) sum += weights[i] * layer_mean(texel, i);
     if (layer_count == 0) sum = weights[0] * texelFetch(mean, min(texel, size - 1), 0).rgb;
