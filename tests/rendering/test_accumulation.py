@@ -1,4 +1,4 @@
-"""What a pixel keeps of its samples: mean and variance that keep their digits, of finite ones."""
+"""A pixel keeps mean and variance of its finite samples, without losing their digits."""
 
 import math
 from typing import Any

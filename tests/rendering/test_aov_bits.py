@@ -53,7 +53,7 @@ def without_position(aovs: AovImages) -> AovImages:
 def picture(
     scene: Scene, context: Context, tier: Tier = "generic", way: Resolved = "compute", **more: Any
 ) -> Image:
-    """Two observations and a sample, with all AOVs unless told."""
+    """A picture of two observations and one sample, by default with all AOVs."""
     options: dict[str, Any] = {**SIZE, "bounces": 2, "aov": ALL, **more}
     renderer = Renderer(scene, None, context, tier, way, **options)
     image = renderer.render(2 * renderer.settings.block + 1).image()
@@ -161,7 +161,7 @@ def test_aovs_that_grow_with_the_picture_are_those_gathered_at_once(
 def test_aovs_in_many_small_dispatches_have_the_same_bits(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Of one tile and one observation each, in a frame of an odd size: six tiles."""
+    """Each dispatch does one tile and one observation; the frame of odd size has six tiles."""
     odd = {"width": 21, "height": 11, "sampler": "sobol"}
     expected = gathered(heap(), context, 20, **odd)
     parts: list[DispatchRange] = []

@@ -42,7 +42,7 @@ FLAT = world(plane([0, 0, -2], [0.2, 0.5, 1], "paint"), **EYE)
 
 @pytest.mark.parametrize("scene", [BALL, TILTED], ids=["ball", "quad"])
 def test_means_over_pixels_with_edges_are_those_of_float64(context: Context, scene: Scene) -> None:
-    """Samples beside the shape count as normals of 0, and not as distances."""
+    """Samples that miss the shape count as normals of 0, but not as distances."""
     samples, truth = 1024, pixel_means(scene, SIZE, even(64))
     found = gathered(scene, context, samples)
     assert_shares(found["depth"], samples, truth)
@@ -143,7 +143,7 @@ def test_aovs_report_what_the_camera_rays_of_paths_meet(
 
 
 def albedos(scene: Scene, objects: Array) -> Array:
-    """Those of objects by number, from the scene's own models; 0 for none."""
+    """The albedos of objects by number, from the scene's own models; 0 for no object."""
     materials = [scene.materials[shape.material] for shape in scene.objects]
     colors = [(0, 0, 0), *(getattr(m, "color", (1, 1, 1)) for m in materials)]
     found: Array = np.array(colors)[objects]

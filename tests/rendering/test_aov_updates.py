@@ -248,7 +248,7 @@ def test_a_resumed_picture_has_the_aovs_of_one_render(
 
 
 def test_a_picture_that_goes_on_in_place_of_another_has_its_own_aovs(context: Context) -> None:
-    """What had been gathered for the other is forgotten."""
+    """The renderer forgets the AOVs that it gathered for the other picture."""
     with rendering(heap(), context, **SMALL, aov=ALL) as renderer:
         first = renderer.render(16).image()
         renderer.render(64).image()
@@ -273,7 +273,7 @@ def test_aovs_asked_for_later_are_those_of_the_part(context: Context) -> None:
 
 @pytest.mark.slow
 def test_a_part_has_aovs_of_its_own_samples(context: Context) -> None:
-    """Of single samples each part is a seed of its own: their mean is that of the render."""
+    """Parts of one sample each have seeds of their own; their mean is that of the render."""
     options: dict[str, Any] = {**SMALL, "sampler": "independent", "aov": ("depth",)}
     ball = scene_of([sphere([0, 0, 0], 2.0, "matte")], {"matte": MATTE})
     renderer = Renderer(ball, context=context, part=(1, 4), samples=4, **options)

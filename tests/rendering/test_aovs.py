@@ -139,7 +139,7 @@ def test_in_the_middle_of_a_ball_normals_point_back(context: Context) -> None:
 
 @pytest.mark.slow
 def test_every_material_has_its_albedo(context: Context) -> None:
-    """Glass 1, metal its reflectance, a lamp its own colour, which is 0 unless told."""
+    """Glass has 1, metal its reflectance, a lamp its own colour, which is 0 by default."""
     names = [*MATERIALS]
     places = [(-2 + 2 * (n % 3), 1 - 2 * (n // 3)) for n in range(6)]
     balls = [sphere([x, y, -5], 0.9, name) for name, (x, y) in zip(names, places, strict=True)]

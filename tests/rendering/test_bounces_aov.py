@@ -1,4 +1,4 @@
-"""How often paths scatter before they end, in closed form, and as the records of paths tell it."""
+"""How often paths scatter before they end: in closed form, and by the records of paths."""
 
 from typing import Any
 
@@ -55,7 +55,7 @@ def test_no_path_ends_early_in_a_closed_room_without_roulette(
 
 
 def test_a_path_that_meets_nothing_has_not_scattered(context: Context) -> None:
-    """Of one that meets the floor alone, once: it leaves by its only scattering."""
+    """A path that meets only the floor scatters once, and leaves."""
     floor = scene_of(
         [plane([0, -1, 0], [0, 1, 0], "matte")],
         {"matte": MATTE},

@@ -153,7 +153,7 @@ def test_row_0_is_the_top_of_the_picture(film: Film, step: Step) -> None:
 def test_a_film_that_finds_no_room_gives_back_what_it_has_taken(
     ctx: moderngl.Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The means fit, and the layers beside each other are wider than any texture."""
+    """The means fit, but the layers next to each other are wider than any texture."""
     taken: list[moderngl.Texture] = []
     make = ctx.texture
 
@@ -189,7 +189,7 @@ def test_rows_of_a_film_are_those_of_the_whole(film: Film, step: Step) -> None:
 def test_reading_a_picture_takes_little_memory_next_to_it(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """What numpy and moderngl hold at most, as Python counts it."""
+    """The peak memory of numpy and moderngl, as Python counts it."""
     monkeypatch.setattr("glrt.rendering.film.BAND_PIXELS", 1 << 12)
     monkeypatch.setattr("glrt.error.estimate.BAND", 1 << 12)
     with rendering(load("sky"), context, width=512, height=256) as renderer:
@@ -252,7 +252,7 @@ def test_a_part_of_an_observation_has_a_variance_of_its_own() -> None:
         parts = random.normal(5, spread, size=(20_000, 3)).astype(np.float32)
         film = exposure(blocks, part=parts, share=0.2)
         estimate = np.mean(np.square(standard_error(film)))
-        # Of 60,000 estimates of three degrees of freedom or fewer: 0.6 % is one standard error.
+        # 60,000 estimates of at most three degrees of freedom: 0.6 % is one standard error.
         assert estimate == pytest.approx(0.64 / 3 + 0.04 * spread**2, rel=0.03)
         assert estimate == pytest.approx(np.var(film.mean), rel=0.04)
 

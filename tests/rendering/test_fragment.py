@@ -103,7 +103,7 @@ def test_structs_survive_the_way_through_a_texture(ctx: moderngl.Context) -> Non
 
 
 def test_the_first_rows_of_a_texture_are_written_again(ctx: moderngl.Context) -> None:
-    """Others stay, but for those of the last line that is touched."""
+    """Other rows stay, except those of the last line that is touched."""
     dtype = STRUCTS["Slot"]
     old, new = (np.full(5 * ROWS * dtype.itemsize, k, np.uint8).view(dtype) for k in (1, 2))
     for count in (1, ROWS, ROWS + 1, 5 * ROWS):

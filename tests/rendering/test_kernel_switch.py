@@ -1,4 +1,4 @@
-"""A renderer goes on by a kernel with the shapes written into it, and back: no bit tells."""
+"""A renderer switches to a kernel with the shapes written into it, and back: no bit changes."""
 
 from typing import Any
 

@@ -30,7 +30,7 @@ def tracer_of(renderer: Renderer) -> ProbeTracer:
 
 
 def warmed_up(albedo: float) -> float:
-    """What the probes of a room hold that shines with 1: light over one bounce and more, E / pi."""
+    """The light that probes hold in a room that shines with 1: E / pi, of one bounce and more."""
     held = 0.0
     for update in range(UPDATES):
         kept = kept_light(update)

@@ -1,4 +1,4 @@
-"""What rays find among triangles: against Embree and against arithmetic in float64."""
+"""The hits of rays among triangles: against Embree and against arithmetic in float64."""
 
 from typing import Any
 
@@ -126,7 +126,7 @@ def test_rays_find_what_arithmetic_in_float64_finds(call_glsl: CallGlsl, name: s
     assert clear.mean() > 0.9
     is_hit = np.isfinite(truth) & clear
     assert np.array_equal((seen[:, 1] >= 0)[clear], np.isfinite(truth)[clear])
-    # Of a flat triangle seen from its edge the distance is known less well.
+    # The distance of a flat triangle seen from its edge is less exact.
     off = np.abs(seen[is_hit, 0] / truth[is_hit] - 1)
     assert np.quantile(off, 0.99) < RATIO * 10 if len(off) else True
     assert np.array_equal(seen[:, 1] >= 0, seen[:, 2] == 1)

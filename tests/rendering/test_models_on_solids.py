@@ -146,7 +146,7 @@ def normal_by_distances(shape: Shape, direction: Array) -> Array:
 @pytest.mark.slow_cases("cylinder", "tube")
 @pytest.mark.parametrize("name", THINGS)
 def test_solids_cast_the_shadow_of_a_point(context: Context, name: str) -> None:
-    """Of all pixels of a floor that lie wholly inside or outside; phong has no shadows."""
+    """All floor pixels wholly inside the shadow are dark, others are not; phong has no shadows."""
     floor = plane([0, FLOOR, 0], [0, 1, 0], "white")
     camera = {"fov": FOV, "position": [0, 0, 0], "look_at": [0, -0.3, -1]}
     scene = scene_of([THINGS[name], BULB, floor], MATERIALS, camera)

@@ -48,7 +48,7 @@ def test_the_picture_is_the_sum_of_its_films(context: Context) -> None:
 
 
 def test_their_variances_add() -> None:
-    """Of 5 observations with the variance 4, beside a camera whose error is 2: sqrt(4 + 4 / 4)."""
+    """5 observations of variance 4 and a camera film whose error is 2: sqrt(4 + 4 / 4)."""
     ones = np.ones((2, 3, 3), np.float32)
     radiance, stderr = summed(ParticleFilm(ones, 2 * ones, 4 * ones), 2 * ones, 5)
     np.testing.assert_allclose(radiance, 3)

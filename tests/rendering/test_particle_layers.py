@@ -1,4 +1,4 @@
-"""What particles bring by layers: a picture relit, or of fewer bounces, without a restart."""
+"""Layers of particles' light: a picture is relit, or has fewer bounces, without a restart."""
 
 from typing import Any
 

@@ -45,7 +45,7 @@ DARK = {**MATERIALS, "dark": {"type": "lambertian", "color": [0.02, 0.02, 0.02]}
 
 
 def behind_a_ball() -> Scene:
-    """Tinted glass, of which a dark ball hides a part, in a room with a dark wall on the left."""
+    """Tinted glass, partly hidden by a dark ball, in a room with a dark wall on the left."""
     left, *faces = box_of_quads("matte")
     things = [{**left, "material": "dark"}, *faces, HANGING, BEFORE]
     return scene_of([*things, {**FILLING, "material": "tinted"}], DARK, CLOSE)
@@ -93,7 +93,7 @@ def test_links_change_the_noise_alone(context: Context, name: str) -> None:
     ],
 )
 def test_however_few_there_are(context: Context, bounces: int, linked: float) -> None:
-    """Of the particles, and of their bounces: a link takes one, two or three."""
+    """Few particles, and few bounces: a link takes one, two or three."""
     size: dict[str, Any] = {"width": 16, "height": 16, "bounces": bounces}
     without = rendered(GLASS_ALONE, context, 16384, seed=1, **size)
     more = {"caustics": "on", "linked": linked, "particles": 1.0}
@@ -103,7 +103,7 @@ def test_however_few_there_are(context: Context, bounces: int, linked: float) ->
 
 @pytest.mark.slow
 def test_the_error_falls_of_what_is_seen_in_a_mirror(context: Context) -> None:
-    """Over the mirror ball, relative to the radiance, by a factor of 5, beside particles alone."""
+    """The relative error over the mirror ball falls by a factor of 5 against particles alone."""
     size: dict[str, Any] = {"width": 32, "height": 32, "sampler": "sobol", "particles": 1.0}
     errors = []
     for way in ({**ON, "linked": 0.0}, ON):
@@ -157,7 +157,7 @@ def test_a_scene_without_such_spheres_has_no_links(context: Context) -> None:
 @pytest.mark.usefixtures("exact_kernels")
 @pytest.mark.parametrize("bounces", [3, 7])
 def test_the_rounds_of_links_count_towards_the_limit_of_loops(bounces: int) -> None:
-    """Of a search, of the choice of a sphere, and of what hides the ways to and from it."""
+    """A link's rounds: a search, the choice of a sphere, and shadow tests to and from it."""
     settings = Settings(bounces=bounces)
     found = {
         linked: rounds_for_particles(

@@ -86,7 +86,7 @@ def test_a_mirror_reflects_by_its_shading_normal(context: Context) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("place", PLACES)
 def test_the_ways_share_light_where_normals_differ(context: Context, place: str) -> None:
-    """Of a sun so large that scattering finds it as often as particles come."""
+    """The sun is so large that scattering finds it as often as particles come."""
     camera, things = PLACES[place]
     scene = under_the_sun(camera, *things, angle=40.0)
     size: dict[str, Any] = {"width": 32, "height": 32, "bounces": 2}
@@ -108,7 +108,7 @@ BALLS = [([-0.5, -0.6, -0.5], 0.4), ([0.35, -0.6, -0.3], 0.35), ([-0.1, -0.75, 0
     ids=", ".join,
 )
 def test_smooth_meshes_change_the_noise_alone(context: Context, kinds: Sequence[str]) -> None:
-    """Of 20 triangles each, so that both normals are far apart."""
+    """The meshes have 20 triangles each, so that both normals are far apart."""
     balls = zip(kinds, BALLS, strict=True)
     things = [mesh(icosphere(0), kind, translate=at, scale=r) for kind, (at, r) in balls]
     size: dict[str, Any] = {"width": 32, "height": 32, "bounces": 6}
@@ -119,7 +119,7 @@ def test_smooth_meshes_change_the_noise_alone(context: Context, kinds: Sequence[
 
 @pytest.mark.slow
 def test_an_image_of_normals_changes_the_noise_alone(context: Context) -> None:
-    """Of a ball of glass."""
+    """The image bends the normals of a ball of glass."""
     texels = np.random.default_rng(1).uniform(0.25, 0.75, (8, 8, 4))
     texels[..., 2] = 0.9
     glass = {"type": "principled", "transmission": 1.0, "roughness": 0.0}

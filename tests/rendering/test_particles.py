@@ -146,7 +146,7 @@ def test_light_twice_as_bright_gives_twice_the_radiance(context: Context) -> Non
 
 
 def test_sums_need_both_of_their_words(context: Context, monkeypatch: pytest.MonkeyPatch) -> None:
-    """With units of which a word holds all, or of which a splat takes thousands of words."""
+    """Units are so coarse that one word holds all, or so fine that a splat takes thousands."""
     found = {}
     for bits in (20, 40, 50):
         monkeypatch.setattr(particles, "UNIT_BITS", bits)

@@ -48,7 +48,7 @@ SKIES: dict[str, Scene] = {
 
 @pytest.fixture
 def particle_files() -> str:
-    """What follows particles, without a film."""
+    """The text that follows particles, without a film."""
     return particle_text()
 
 
@@ -73,7 +73,7 @@ def test_a_white_furnace_stays_white(context: Context) -> None:
 
 @pytest.mark.slow
 def test_the_error_falls_where_a_small_sun_shines_through_glass(context: Context) -> None:
-    """Over the floor beside the ball."""
+    """The error is measured over the floor next to the ball."""
     size: dict[str, Any] = {"width": 48, "height": 48, "sampler": "sobol", "particles": 1.0}
     errors = [
         float(np.square(rendered(SKIES["image"], context, 256, **size, **way).stderr).mean()) ** 0.5

@@ -241,7 +241,7 @@ def test_lamps_and_a_sky_that_shines_are_groups() -> None:
 
 
 def test_the_driver_shows_the_sum_that_files_hold(context: Context) -> None:
-    """Of an odd number of samples: one half of them has more than the other."""
+    """The number of samples is odd: one half has more samples than the other."""
     with layered(room(2, 0.5), context, width=20, height=12) as renderer:
         renderer.render(3)
         renderer.update(room(2, 0.5, warm=0.2, background=3.0))

@@ -18,7 +18,7 @@ from tests.support.relit_room import layered, radiance, room, tinted
 
 
 def rendered_again(picture: Path, context: Context, **options: Any) -> Image:
-    """What `glrt render` makes of a picture."""
+    """The image that `glrt render` makes from a picture."""
     scene, settings = load_recipe(picture)
     assert settings
     settings = settings_for(settings, **options)

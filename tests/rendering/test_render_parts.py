@@ -55,7 +55,7 @@ def parts_of(
 @pytest.mark.slow_cases("independent")
 @pytest.mark.parametrize("sampler", SAMPLERS)
 def test_merged_parts_are_one_render_up_to_rounding(context: Context, sampler: str) -> None:
-    """Of its samples and of its observations."""
+    """The samples and the observations of the parts are those of the render."""
     options: dict[str, Any] = {"samples": 149, "sampler": sampler, "aov": (*ALL, "bounces")}
     found = merge(parts_of(heap(), context, 4, **options))
     with rendering(heap(), context, **{**SMALL, **options}) as renderer:

@@ -233,7 +233,7 @@ def test_a_context_that_was_given_stays_open_when_a_renderer_is_refused(context:
 def test_an_error_of_the_driver_ends_a_render_before_it_begins(
     context: Context, fresh: Context, monkeypatch: pytest.MonkeyPatch, place: str
 ) -> None:
-    """It may show a wrong picture. What others left in the context is no fault of a render."""
+    """The picture may be wrong. An error that others left in the context does not end it."""
 
     def fails(self: Any, *arguments: Any) -> Any:
         done = uploading(self, *arguments)

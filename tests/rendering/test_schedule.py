@@ -171,7 +171,7 @@ def test_tiles_in_steps_of_the_stride_are_all_blocks() -> None:
 
 
 def test_tiles_of_a_dispatch_lie_all_over_the_picture() -> None:
-    """Of 64 rows of 64 tiles, 128 tiles touch every four rows at least."""
+    """In 64 rows of 64 tiles, 128 tiles touch at least every fourth row."""
     for first in (0, 1000, 3900):
         rows = {(number * stride_of(4096) % 4096) // 64 for number in range(first, first + 128)}
         assert np.diff(sorted({-1, *rows, 64})).max() <= 4

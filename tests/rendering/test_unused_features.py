@@ -1,7 +1,7 @@
-"""A scene that does not use a feature gets the program that it got before there was one.
+"""A scene that does not use a feature gets the program that it got before the feature existed.
 
-The driver's program, as it gives it out: without the functions of a feature that the scene leaves
-out, it is the same to the byte, but for hashes of the source and what lies beside them.
+The test compares the driver's program binaries. Without the functions of a feature that the scene
+leaves out, the binary is the same to the byte, except hashes of the source and bytes around them.
 """
 
 import ctypes
@@ -21,10 +21,10 @@ from glrt.rendering.renderer import Renderer
 from tests.support.driver_log import library
 
 _FORMATS, _LENGTH = 0x87FE, 0x8741  # NUM_PROGRAM_BINARY_FORMATS, PROGRAM_BINARY_LENGTH
-AROUND = 320  # bytes: beside the hash of the source lies a struct with holes, which are not written
+AROUND = 320  # bytes: next to the hash of the source lies a struct with holes, never written
 COMMENTED = "sampling/hash.glsl"  # a file that every kernel has
 TRIES = 3  # until a program is as long as another of the same text
-TELLING = ("path.glsl", "roulette.glsl")  # files in which a path tells what happens
+TELLING = ("path.glsl", "roulette.glsl")  # files in which a path records what happens
 UNDEFINED = 8  # other bytes of a hundred thousand that hold what was in memory before, now and then
 
 pytestmark = pytest.mark.usefixtures("exact_kernels")
@@ -66,10 +66,10 @@ def emptied(glsl: str) -> str:
 
 
 def program_of(context: Context, scene: str, texts: dict[str, str], **settings: Any) -> Any:
-    """What the driver makes of a kernel with these files, (n,) uint8.
+    """The driver's program of a kernel with these files, (n,) uint8.
 
-    It compiles anew, by a comment that was never there: a program out of the driver's cache may be
-    a few bytes shorter.
+    A new comment forces a compilation: a program out of the driver's cache may be a few bytes
+    shorter.
     """
     size: dict[str, Any] = {"width": 32, "height": 32}
     unseen = f"{read(COMMENTED)}// {uuid.uuid4()}\n"
@@ -110,7 +110,7 @@ def equally_long(program: Callable[[], Any], count: int) -> list[Any]:
 
 
 def differing(programs: Iterable[Any]) -> Any:
-    """Where programs of one length differ, and AROUND: what lies beside a hash may be undefined."""
+    """Where programs of one length differ, and AROUND: bytes near a hash may be undefined."""
     first, *others = programs
     known = np.zeros(len(first), bool)
     for place in np.flatnonzero(np.any([first != other for other in others], axis=0)):
@@ -119,7 +119,7 @@ def differing(programs: Iterable[Any]) -> Any:
 
 
 def unreported(glsl: str) -> str:
-    """A file without what a path tells on its way."""
+    """A file without the calls by which a path records what happens."""
     return re.sub(r"^ *record_\w+\([^;]*\);\n", "", glsl, flags=re.MULTILINE)
 
 

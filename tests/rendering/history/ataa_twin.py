@@ -1,4 +1,4 @@
-"""The mask and the filter of adaptive temporal antialiasing, written anew in numpy."""
+"""The mask and the filter of adaptive temporal antialiasing, written independently in numpy."""
 
 from typing import Any
 
@@ -12,7 +12,7 @@ LUMA = np.array([0.299, 0.587, 0.114])
 def failure(
     place: Array, known: Array, off: Array, contrast: Array, is_edge: Array, is_specular: Array
 ) -> Array:
-    """What pixels show; `place`: how far each has come, (n, 2), negative x: from outside."""
+    """The mask's number of each pixel. `place`, (n, 2): how far it moved; x < 0: from outside."""
     is_rough = is_edge | (contrast > 0.25)
     moved = np.hypot(place[:, 0], place[:, 1])
     rules = [

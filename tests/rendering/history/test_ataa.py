@@ -32,7 +32,7 @@ SAMPLES = 4
 
 
 class Seen(NamedTuple):
-    """What is known of a view."""
+    """The picture, the film and the mask of a view, and how many pixels were traced."""
 
     shown: Array  # (H, W, 3)
     film: Array
@@ -116,7 +116,7 @@ def masked(light: Array, number: int, context: Context) -> Array:
 
 
 def test_the_filter_does_what_the_twin_does(context: Context) -> None:
-    """Of noise, and of a slanted edge of some width."""
+    """The test filters noise and a slanted edge of some width."""
     y, x = np.mgrid[: SIZE[1], : SIZE[0]]
     edge = np.clip(x - 0.4 * y - 5, 0.05, 1)[..., None] * [3.0, 1.0, 0.3, 0.0]
     for light in (noise(SIZE, 5), (edge + np.eye(4)[3]).astype(np.float32)):

@@ -72,7 +72,7 @@ def test_a_surface_has_the_flags_of_its_material(
 
 
 def test_pixels_next_to_another_object_are_at_an_edge(context: Context) -> None:
-    """Of a ball before a plane, those of a pixel around its outline; of a lamp, that is told."""
+    """A pixel next to the outline of a ball is at an edge; a flag marks the edge of a lamp."""
     for material, flag in ((MATTE, 0), (lamp(2.0), FLAGS["LAMP_EDGE"])):
         objects = [plane([0, 0, -1], [0, 0, 1], "matte"), sphere([0, 0, 0], 0.7, "ball")]
         scene = scene_of(objects, {"matte": MATTE, "ball": material}, EYE)

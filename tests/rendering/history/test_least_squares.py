@@ -82,7 +82,7 @@ def test_w5_a_step_of_light_is_followed_in_a_few_frames() -> None:
 
 
 def step_response(is_delayed: bool) -> Array:
-    """What is shown of a step to three times the light, after 1, 2, ... frames; mean of pixels."""
+    """The mean picture 1, 2, ... frames after a step to three times the light."""
     rng = np.random.default_rng(5)
     wrls = FactoredWrls(noisy(rng, 4000, 0.2), is_delayed)
     for _ in range(30):

@@ -71,7 +71,7 @@ def test_half_a_pixel_many_times_keeps_detail(context: Context) -> None:
 
 
 def test_samples_between_pixels_are_those_of_their_harmonic_mean(context: Context) -> None:
-    """So that the variance of a mean is not told too low."""
+    """Otherwise the variance of a mean would be estimated too low."""
     history = np.ones((SIZE[1], SIZE[0], 4), np.float32)
     history[:, ::2, 3] = 4.0
     history[:, 1::2, 3] = 16.0
@@ -85,7 +85,7 @@ def test_samples_between_pixels_are_those_of_their_harmonic_mean(context: Contex
 def test_what_was_hidden_has_no_history(context: Context) -> None:
     """The camera goes right by 4 pixels of the wall, so the quad goes left by 8 in the picture.
 
-    Beside it a band of the wall comes into sight that is 4 pixels wide: the parallax.
+    The parallax uncovers a band of the wall next to it, 4 pixels wide.
     """
     history = noise(SIZE)
     found = brought(two_walls(0.0), two_walls(4 * PIXEL), history, context)
@@ -177,7 +177,7 @@ def test_it_counts_for_less_where_its_motion_is_wrong(context: Context) -> None:
 
 
 def test_a_finer_view_shares_the_samples_of_a_coarse_one(context: Context) -> None:
-    """Of four pixels each has a quarter; of a finer view each pixel has its own."""
+    """Four fine pixels get a quarter each; a coarse pixel gets the samples of one fine pixel."""
     history = np.full((12, 16, 4), 8.0)
     fine = brought(wall(), wall(), history, context, size=(32, 24))
     np.testing.assert_allclose(fine[..., 3], 2.0, rtol=1e-5)

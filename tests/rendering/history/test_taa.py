@@ -36,7 +36,7 @@ float weight_of(int one, int frames, float old) {
 
 
 def weights_of(gl: moderngl.Context, frames: int, old: float) -> Array:
-    """What each frame counts for in the last; `old`: the samples that the first one stands for."""
+    """The weight of each frame in the last; `old`: the samples that the first one stands for."""
     files = ["temporal/taa.glsl"]
     call = f"weight_of(one, {frames}, {old!r})"
     probe = Probe(call, "float", functions=RECURSION, includes=files)
@@ -78,7 +78,7 @@ def test_samples_of_one_view_count_as_so_many_frames(ctx: moderngl.Context) -> N
 
 
 def screens(options: TaaOptions, scenes: list[Scene], context: Context) -> tuple[Array, Array]:
-    """What is shown of views of a sample each, and the films: (frames, H, W, 3) both."""
+    """The pictures shown of views of one sample each, and the films: both (frames, H, W, 3)."""
     size = {"width": SIZE[0], "height": SIZE[1], "sampler": "independent"}
     renderer = Renderer(scenes[0], settings_for(scenes[0].render, **size), context)
     temporal = Temporal(context.gl, Way("taa"))
@@ -155,7 +155,7 @@ def test_the_pass_does_what_the_twin_does(context: Context, reach: float) -> Non
 
 
 def test_a_pan_by_whole_pixels_keeps_history_exactly(context: Context) -> None:
-    """What is in both views has both samples; what comes into sight shows its own alone."""
+    """A place in both views shows both samples; one that comes into sight shows its own alone."""
     scenes = [wall(**SKY), wall(2 * PIXEL, **SKY)]
     shown, films = screens(TaaOptions(reach=ANY), scenes, context)
     np.testing.assert_allclose(

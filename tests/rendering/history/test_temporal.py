@@ -51,7 +51,7 @@ def film_of(scene: Scene, context: Context, samples: int = 1, **more: object) ->
 
 
 def test_history_and_film_are_weighed_by_their_samples(context: Context) -> None:
-    """And history fades beside, until the film has so many samples that it is shown alone."""
+    """History also fades, until the film has enough samples to be shown alone."""
     size = 16, 12
     history, light, mean = noise(size, 1), noise(size, 2), noise(size, 3)
     history[:4, :, 3] = 0
@@ -93,7 +93,7 @@ def test_views_of_the_same_place_are_shown_as_their_mean(context: Context) -> No
 
 
 def test_a_pan_by_whole_pixels_gathers_the_samples_of_each_place(context: Context) -> None:
-    """What is seen in both views has both samples; what comes into sight has its own alone."""
+    """A place in both views has both samples; one that comes into sight has its own alone."""
     scenes = wall(**SKY), wall(2 * PIXEL, **SKY)
     _, shown = pictures(scenes, context, "reproject")
     before, now = film_of(scenes[0], context), film_of(scenes[1], context, seed=1)
@@ -174,7 +174,10 @@ def test_under_another_light_history_counts_for_little(context: Context) -> None
 
 
 def test_the_evidence_is_the_bias_beyond_chance(context: Context) -> None:
-    """Of tiles of 8 x 8 pixels, over the variance of one sample; one with few pixels has none."""
+    """Each tile of 8 x 8 pixels has its own, relative to the variance of one sample.
+
+    A tile with few pixels has no evidence.
+    """
     size, rng = (24, 8), np.random.default_rng(5)
     light, mean, history = noise(size, 1), noise(size, 2), noise(size, 3)
     light[:, :8, :3] += 1.0  # a bias

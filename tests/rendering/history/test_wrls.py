@@ -49,7 +49,7 @@ def textured(context: Context, film: Array) -> Iterator[moderngl.Texture]:
 
 
 def shown_of(wrls: Wrls, now: Any, before: Any, film: Array, context: Context) -> Array:
-    """What is shown of a film in a view after another one; it ends at END samples."""
+    """The picture shown of a film in a view after another one; history ends at END samples."""
     with context.gl, textured(context, film) as light:
         wrls.arrive(now, before, True)
         texture = wrls.show(now, Fresh(light, light, int(film[0, 0, 3]), END))
@@ -156,7 +156,7 @@ def test_numbers_of_the_history_are_reported(context: Context) -> None:
 
 @pytest.mark.parametrize("mode", ["reproject", "taa"])
 def test_other_ways_report_the_samples_of_their_history(context: Context, mode: Mode) -> None:
-    """Of a wall that goes by two pixels: two samples, and one where nothing was seen before."""
+    """A wall moves by two pixels: two samples, and one where nothing was seen before."""
     scenes = wall(), wall(2 * PIXEL)
     settings = settings_for(scenes[0].render, width=SIZE[0], height=SIZE[1], sampler="independent")
     renderer, temporal = Renderer(scenes[0], settings, context), Temporal(context.gl, Way(mode))
@@ -207,7 +207,7 @@ def test_a_view_without_a_sample_hands_its_models_on(context: Context) -> None:
 
 
 def test_between_pixels_the_nearest_model_is_taken_as_it_is(context: Context) -> None:
-    """Of 0.3 and of 0.7 pixels: the same, and the one beside."""
+    """A move by 0.3 pixels takes the same pixel's model, one by 0.7 pixels its neighbour's."""
     made, brought = moved([wall(), wall(0.3 * PIXEL)], context)
     assert np.array_equal(brought[:, :, :-1], made[:, :, :-1])
     made, brought = moved([wall(), wall(0.7 * PIXEL)], context)

@@ -1,4 +1,4 @@
-"""What the temporal methods compute, written anew in numpy: the truth for the shaders.
+"""The temporal methods written independently in numpy: the truth for the shaders.
 
 Arrays hold pixels in their first axis. `dtype` float64 gives the equations, float32 their rounding.
 """
@@ -68,7 +68,7 @@ class Wrls:
         return np.asarray(np.einsum("npc,np->nc", self.slopes, self.p))
 
     def weight_of(self, y: Array, z: Array) -> Array:
-        """Of a sample."""
+        """The weight of a sample."""
         t = self.dtype
         least = np.minimum(_length(y), _length(z)) + t(LEAST)
         distance = _length(y - z) / least / t(self.width)
@@ -79,7 +79,7 @@ class Wrls:
         self.covariance = np.tile(np.eye(4, dtype=t) * t(DELTA), (n, 1, 1))
 
     def _gain(self) -> Array:
-        """Of this sample; the covariance is that after it."""
+        """The gain of this sample; it also updates the covariance."""
         t = self.dtype
         spread = np.einsum("nij,nj->ni", self.covariance, self.p)
         over = t(self.forgetting) / self.weight + (self.p * spread).sum(axis=1)
@@ -151,7 +151,7 @@ def effective_samples(frames: int, share: float) -> float:
 
 
 def taa_weights(frames: int, least: float) -> Array:
-    """What each frame counts for: the n-th gets 1 / n, but at least a share, when it comes."""
+    """The weight of each frame: the n-th gets 1 / n when it comes, but at least `least`."""
     weights = np.ones(1)
     for n in range(2, frames + 1):
         share = max(1 / n, least)

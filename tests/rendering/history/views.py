@@ -9,7 +9,7 @@ from glrt.scene.scene import Scene
 
 
 def views(renderer: Renderer, temporal: Temporal, scenes: Sequence[Scene]) -> Iterator[Picture]:
-    """What is shown of each scene, (H, W, 3); the renderer shows the first already."""
+    """The picture shown of each scene, (H, W, 3); the renderer shows the first already."""
     for seed, scene in enumerate(scenes):
         if seed:
             temporal.leave(renderer)

@@ -44,7 +44,7 @@ def smoothed(predictions: Array, features: Array) -> Array:
 
 
 class StillWrls:
-    """What is shown of films (H, W, 4) of a view after the other, a: samples."""
+    """The pictures shown of films (H, W, 4) of one view after another; alpha: samples."""
 
     def __init__(self, is_delayed: bool = False) -> None:
         """Before the first view."""
@@ -53,7 +53,7 @@ class StillWrls:
         self._frame = 1.0  # samples
 
     def show(self, film: Array, end: float) -> Array:
-        """Of the next view, all of whose pixels have as many samples; radiance (H, W, 3)."""
+        """The radiance shown of the next view, (H, W, 3); its pixels have equally many samples."""
         height, width, _ = film.shape
         samples = float(film[0, 0, 3])
         frames, self._frame = max(samples / self._frame, 1), samples

@@ -1,4 +1,4 @@
-"""The light on paths is told as it is, in float64; and fireflies explain themselves."""
+"""Reports of the light on paths agree with float64, and reports explain fireflies."""
 
 import math
 from typing import Any

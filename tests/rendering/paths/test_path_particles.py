@@ -42,7 +42,7 @@ def found(context: Context) -> PixelPaths:
     ids=str,
 )
 def test_both_films_add_up(context: Context, more: dict[str, Any]) -> None:
-    """That of particles but for the fixed point in which it sums."""
+    """The film of particles agrees except for the fixed point in which it sums."""
     told = replayed(load("cornell"), PIXEL, context, **{**ON, **more})
     camera, particles = films(load("cornell"), context, **{**ON, **more})
     assert told.particles

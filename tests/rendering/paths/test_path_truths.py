@@ -1,4 +1,4 @@
-"""Where paths go and what happens on them is told as it is: checked in float64."""
+"""Reports of where paths go and what happens on them are correct: checked in float64."""
 
 import math
 from itertools import pairwise
@@ -128,7 +128,7 @@ def test_glass_bends_and_what_is_matte_scatters(name: str, request: pytest.Fixtu
 def test_throughput_is_what_surfaces_and_roulette_leave(
     name: str, request: pytest.FixtureRequest
 ) -> None:
-    """Of matte surfaces their colour; of glass the square of the index, there and back."""
+    """Matte surfaces leave their colour; glass the square of the index, there and back."""
     seen = set()
     for scene, path in paths(request.getfixturevalue(name)):
         assert path.vertices[1].throughput == (1, 1, 1)

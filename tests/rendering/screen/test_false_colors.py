@@ -62,7 +62,7 @@ def traced(
 
 
 def drawn(renderer: Renderer, draw: Callable[[FalseColors, moderngl.Texture], None]) -> Codes:
-    """What is drawn of a film's light, (H, W, 3), row 0 on top."""
+    """The picture drawn from a film's light, (H, W, 3), row 0 on top."""
     gl = renderer.context.gl
     with gl:
         colors, target = FalseColors(gl), gl.simple_framebuffer(renderer.size, 3)

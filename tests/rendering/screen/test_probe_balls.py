@@ -21,7 +21,7 @@ Floats = NDArray[Any]
 
 SIDE = 96  # pixels
 WAY: dict[str, Any] = {"method": "ddgi", "sampler": "sobol", "aov": ("depth",), "bounces": 3}
-FAR = 1 / 1.18  # how far from the middle of the picture the far probes beside it are
+FAR = 1 / 1.18  # how far from the middle of the picture the far probes are
 EYE = [0.5, 0.5, 0.68]  # straight before the probes at (0.5, 0.5, 0.5) and (0.5, 0.5, -0.5)
 GRID = {"min": [-1, -1, -1], "max": [1, 1, 1], "counts": [2, 2, 2]}
 
@@ -106,7 +106,7 @@ def test_a_probe_in_a_solid_has_no_ball(context: Context) -> None:
 
 
 def test_distances_are_those_to_what_is_around(context: Context) -> None:
-    """Of the near ball, which hides the one behind it, whose distance would be longer by 1.
+    """The near ball hides the one behind it, whose distance would be longer by 1.
 
     From (0.5, 0.5, 0.5) towards the eye to the sphere: sqrt(1 - 0.5) - 0.5, about as cos^50.
     """
