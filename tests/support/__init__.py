@@ -1,1 +1,1 @@
-"""What several tests share; nothing here is a test."""
+"""Helpers that several tests share; nothing here is a test."""

@@ -74,8 +74,8 @@ def pooled(found: Floats, wanted: Floats) -> tuple[Floats, Floats]:
 def chi_square_tail(statistic: float, degrees: int) -> float:
     """The chance that chi-square of so many degrees of freedom exceeds the statistic.
 
-    Closed for even degrees: exp(-x/2) times the sum of (x/2)^k / k! below degrees / 2. Of an odd
-    number, that of one more: larger, so that it alarms no more often.
+    Closed for even degrees: exp(-x/2) times the sum of (x/2)^k / k! below degrees / 2. An odd
+    number uses the chance of one more: it is larger, so that it alarms no more often.
     """
     if statistic <= 0 or degrees < 1:
         return 1.0

@@ -22,8 +22,8 @@ from tests.support.workers import report, reported_by
 MOST_PROGRAMS = 920  # this figure only falls
 MOST_SECONDS = 2.0  # of one test
 ALL_SECONDS = 420.0
-SHOWN = 8  # of the costliest
-COSTS = "costs"  # by this name a worker of pytest-xdist hands over what it has counted
+SHOWN = 8  # of the costliest tests
+COSTS = "costs"  # by this name a worker of pytest-xdist hands over its counts
 _TICKS = os.sysconf("SC_CLK_TCK")
 
 _programs: dict[str, str] = {}  # the first test that compiled each, by its digest

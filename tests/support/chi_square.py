@@ -1,4 +1,4 @@
-"""Whether samples of a material follow the density that it tells."""
+"""Whether samples of a material follow the density that it reports."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""What the driver says of a shader that compiles: moderngl keeps silent about warnings."""
+"""The driver's log of a shader that compiles: moderngl does not report warnings."""
 
 import ctypes
 import os

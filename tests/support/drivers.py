@@ -1,6 +1,6 @@
 """Mesa as other drivers, for processes that have this in their environment."""
 
-# What OpenGL 4.1 lacks is really taken away: under a version alone compute shaders still compile.
+# Features that OpenGL 4.1 lacks are removed: under a version alone compute shaders still compile.
 OLD_DRIVER = {
     "MESA_GL_VERSION_OVERRIDE": "4.1",
     "MESA_GLSL_VERSION_OVERRIDE": "410",

@@ -1,6 +1,6 @@
 """Where each feature stands in the shaders, and which features come and go with others."""
 
-# Of each feature: its file, an expression that it computes, and that expression with the probe.
+# Each feature has its file, an expression that it computes, and the same one with the probe.
 PROBES = {
     "HAS_SPHERE": ("shapes/sphere.glsl", "sqrt(discriminant)", "sqrt(discriminant + {})"),
     "HAS_PLANE": ("shapes/plane.glsl", "dot(p - plane.point,", "dot(p - {} * plane.point,"),

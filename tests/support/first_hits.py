@@ -1,4 +1,4 @@
-"""What the first surface behind a pixel is, in float64: the truth for AOVs.
+"""The first surface behind a pixel, in float64: the truth for AOVs.
 
 Written without the product's geometry: only the fields of the scene are read.
 """
@@ -23,14 +23,14 @@ from tests.support.renders import interval, rendered
 from tests.support.z_scores import z_test
 
 ALL: tuple[Aov, ...] = tuple(aov for aov in get_args(Aov) if aov not in OF_PATHS)
-MEANS = ALL[:-1]  # those that are means over samples
+MEANS = ALL[:-1]  # AOVs that are means over samples
 
 Floats = NDArray[np.float64]
 Rule = tuple[Floats, Floats]  # places in the unit interval, and their weights
 
 
 def gathered(scene: Scene, context: Context, samples: int = 4, **settings: Any) -> AovImages:
-    """All AOVs of 8 x 8 pixels, or as `settings` say, by independent numbers unless told."""
+    """All AOVs of 8 x 8 pixels by independent numbers; `settings` override both."""
     usual = {"width": 8, "height": 8, "bounces": 0, "aov": ALL}
     return rendered(scene, context, samples, **{**usual, **settings}).aovs
 
@@ -39,7 +39,7 @@ def gathered(scene: Scene, context: Context, samples: int = 4, **settings: Any) 
 
 
 class FirstHits(NamedTuple):
-    """Of each ray, (...) or (..., 3); where nothing is met: NaN, and 0 for the object."""
+    """The hit of each ray, (...) or (..., 3); where a ray meets nothing: NaN, and object 0."""
 
     object: NDArray[np.int64]  # 1 + its place in the scene file
     depth: Floats
@@ -68,7 +68,7 @@ def rays_through(camera: Camera, size: tuple[int, int], x: Floats, y: Floats) ->
 
 
 def first_hits(scene: Scene, origin: Floats, directions: Floats) -> FirstHits:
-    """What rays from one point, or each from its own, meet first."""
+    """The first hits of rays from one point, or each from its own."""
     nearest = np.full(directions.shape[:-1], np.inf)
     number = np.zeros(directions.shape[:-1], np.int64)
     normal = np.full(directions.shape, np.nan)
@@ -117,7 +117,7 @@ def hits_of_centers(scene: Scene, size: tuple[int, int]) -> FirstHits:
 
 
 class PixelMeans(NamedTuple):
-    """Of the rays through each pixel that meet something."""
+    """Means over the rays through each pixel that meet something."""
 
     coverage: Floats  # (H, W): their share
     depth: Floats  # (H, W)

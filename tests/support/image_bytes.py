@@ -24,7 +24,7 @@ Bytes = NDArray[np.uint8]
 
 
 def refusal(content: bytes, color: bool = True) -> str:
-    """What is said of an image, after the place; one printable paragraph."""
+    """The message that refuses an image, after the place: one printable paragraph."""
     with pytest.raises(SceneError) as caught:
         decode_image(content, WHERE, color)
     message = str(caught.value)

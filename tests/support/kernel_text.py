@@ -17,6 +17,6 @@ def written_for(
 
 
 def written_for_everything() -> dict[str, str]:
-    """Of a scene with one of each thing: nothing is left out because there is none of it."""
+    """The text for a scene with one of each thing: no part is left out as unused."""
     rows = {name: np.zeros(1, empty.dtype) for name, empty in no_rows().items()}
     return {FILE: text_of(rows, "generic", MOST_UNIFORM_BYTES)}

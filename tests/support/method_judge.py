@@ -20,7 +20,7 @@ from glrt.settings import Settings, settings_for
 from tests.support.builders import lamp, quad, scene_of, sphere
 
 SLACK = 1.15  # of an error, which the verdict knows from few pictures
-MARGIN = 1.5  # of a time: between methods that near, a measurement of milliseconds cannot tell
+MARGIN = 1.5  # of a time: a measurement of milliseconds cannot separate methods that near
 FIRST_SEED, FEWEST, MOST_PICTURES = 90, 8, 32  # of the pictures whose errors are taken
 WORK = 4096  # samples for them all, within those numbers
 TRUTH_SEEDS = (1001, 1002)  # not those of the reference that the verdict saw
@@ -57,7 +57,7 @@ class Judge:
 
     @cached_property
     def choice(self) -> Found:
-        """What the verdict chose, with the samples that it asks for."""
+        """The verdict's choice, with the samples that it asks for."""
         return self._tried(self.best.name, self.best.settings, self._samples)
 
     def choice_reaches(self) -> bool:
@@ -85,7 +85,10 @@ class Judge:
         return [each for each in found if each.most <= self.verdict.error]
 
     def _samples_needed(self) -> int:
-        """Of the choice, to a factor of MARGIN: those it names make sure that noise is small."""
+        """The samples that the choice needs, to a factor of MARGIN.
+
+        The verdict may name more, so that noise is surely small.
+        """
         samples = self._samples
         while fewer := int(samples / MARGIN):
             found = self._tried(self.best.name, self.best.settings, fewer)

@@ -99,7 +99,7 @@ def drawn(
     size: tuple[int, int],
     context: Context,
 ) -> Floats:
-    """What a shader draws of textures, (H, W, 4)."""
+    """The picture that a shader draws of textures, (H, W, 4)."""
     with context.gl:
         canvas, over = Canvas(context.gl, "f4"), DrawnPass(context.gl, shader)
         textures = {

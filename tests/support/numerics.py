@@ -1,4 +1,4 @@
-"""What the tests of shader functions are fed with, and measured in."""
+"""Inputs of the tests of shader functions, and the units that they measure in."""
 
 from typing import Any
 

@@ -46,7 +46,7 @@ SIDES = {"quad": 2, "sphere": 1, "disk": 2, "triangle": 2}
 
 
 def particle_text() -> str:
-    """What follows particles, without a film."""
+    """The text that follows particles, without a film."""
     film = "void splat(vec2 place, vec3 radiance, int layer) {}\n"
     return film + "".join(map(read, FILES))
 

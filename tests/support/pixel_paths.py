@@ -39,7 +39,7 @@ def camera_picture(scene: Scene, context: Context, tier: Tier = "baked", **setti
 
 
 def summed(path: Path) -> Any:
-    """What the lights of a path add up to, in float32 and in their order."""
+    """The sum of the lights of a path, in float32 and in their order."""
     total = np.zeros(3, np.float32)
     for light in path.contributions:
         total = total + np.array(light.added, np.float32)

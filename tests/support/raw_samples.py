@@ -1,4 +1,4 @@
-"""Films of which every sample is known: what moments and merged pictures must hold.
+"""Films with every sample known: the truth for moments and merged pictures.
 
 Samples are (n, H, W, C); NaN is one that was dropped. The sums are plain float64.
 """
@@ -32,7 +32,7 @@ def noise(samples: int, seed: int = 1, channels: int = 3) -> Array:
 
 
 def moments_of(samples: Array, block: int = BLOCK) -> Moments:
-    """What a film has gathered of samples that begin with an observation."""
+    """The moments that a film gathers of samples that begin with an observation."""
     whole = len(samples) // block * block
     counts, means = _means(samples[:whole].reshape(-1, block, *samples.shape[1:]), 1)
     is_there = counts > 0
@@ -68,7 +68,7 @@ def error_of(samples: Array, block: int = BLOCK) -> Array:
 
 
 class Render(NamedTuple):
-    """A render of which every sample is known, of radiance and of AOVs."""
+    """A render with every sample of radiance and of AOVs known."""
 
     samples: Array
     aovs: dict[Aov, Array]  # of whole observations

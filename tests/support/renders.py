@@ -39,7 +39,7 @@ class Estimate(NamedTuple):
 def rendering(scene: Scene, context: Context, **settings: Any) -> Iterator[Renderer]:
     """A renderer of 16 x 16 pixels (or as `settings` say) that must drop no sample.
 
-    Of independent numbers, unless told: then a few samples know their error.
+    By default it uses independent numbers: then a few samples know their error.
     """
     usual = {"width": 16, "height": 16, "sampler": "independent"}
     renderer = Renderer(scene, context=context, **{**usual, **settings})
@@ -107,7 +107,7 @@ def assert_agree(a: Image, b: Image, within: float) -> None:
     """Two pictures of one scene, of different seeds, have equal means: in blocks and as a whole.
 
     Blocks are the smallest whose mean rests on ENOUGH effective samples in both: a variance
-    measured over a handful of hits knows nothing of those that did not come.
+    measured over a handful of hits misses the hits that did not come.
     """
     size = next(size for size in (4, 8, 16, 32, 64) if _is_sure(a, size) and _is_sure(b, size))
     book()

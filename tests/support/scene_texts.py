@@ -10,7 +10,7 @@ from glrt.scene.scenefile.toml_writer import write_scene
 
 
 def changed_lines(before: str, after: str) -> list[str]:
-    """Lines that are not in both texts, those that go and those that come."""
+    """Lines that are not in both texts: removed lines and added lines."""
     lines = difflib.ndiff(before.splitlines(), after.splitlines())
     return [line for line in lines if line[0] in "+-"]
 

@@ -14,7 +14,7 @@ Opening = Callable[..., Session]
 
 
 class Clock:
-    """Time that passes as told: each reading of the clock costs a step."""
+    """A clock that a test sets: each reading takes a step of time."""
 
     def __init__(self) -> None:
         self.now, self.step = 100.0, 0.001

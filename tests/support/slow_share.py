@@ -19,7 +19,7 @@ import pytest
 from tests.support.workers import report, reported_by
 
 DRAWN = pytest.StashKey[str]()
-SHARE = "slow share"  # by this name a worker of pytest-xdist tells what was drawn
+SHARE = "slow share"  # by this name a worker of pytest-xdist reports what was drawn
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

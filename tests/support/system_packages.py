@@ -1,4 +1,4 @@
-"""What to do about a system package, or something else of a machine, that is not there."""
+"""Skip or fail where a system package, or something else of a machine, is missing."""
 
 import os
 import shutil

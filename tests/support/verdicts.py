@@ -1,4 +1,4 @@
-"""What a search for the method that suffices finds on small frames, and scenes to search on."""
+"""Searches for the method that suffices on small frames, and scenes to search on."""
 
 from typing import Any
 

@@ -174,7 +174,7 @@ def pilot_law(render: Render) -> None:
 
 
 def denoise_law(render: Render) -> None:
-    """It changes no bit of the plain picture, and shows another beside it."""
+    """It changes no bit of the plain picture, and shows another in addition."""
     image = render(OPTIONS[Way.DENOISE])
     assert same(image, render([]))
     assert image.denoised().error >= 0
@@ -193,7 +193,7 @@ def auto_law(render: Render) -> None:
 
 def limit_law(way: Way) -> Callable[[Render], None]:
     def law(render: Render) -> None:
-        """What it ends with is the picture of so many samples."""
+        """The final picture is that of a render with so many samples."""
         image = render(OPTIONS[way])
         assert image.samples >= 1
         assert same(image, render(["--samples", str(image.samples)]))

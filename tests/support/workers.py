@@ -1,4 +1,4 @@
-"""What the worker processes of pytest-xdist tell the run that started them, as they end."""
+"""Values that worker processes of pytest-xdist report at their end to the run that started them."""
 
 from typing import Any
 
@@ -12,6 +12,6 @@ def report(config: pytest.Config, name: str, value: float | str) -> None:
 
 
 def reported_by(node: Any, name: str, otherwise: float | str) -> float | str:
-    """In `pytest_testnodedown`: what the worker handed over; one that crashed has told nothing."""
+    """In `pytest_testnodedown`: the worker's value, or `otherwise` if it crashed."""
     value: float | str = getattr(node, "workeroutput", {}).get(name, otherwise)
     return value

@@ -33,7 +33,7 @@ def opened() -> window.Window:
 
 
 def findings(hand: Hand) -> Iterator[str]:
-    """What each check that is asked for found wrong, "" for nothing; an item amiss ends them."""
+    """The problem that each requested check found, or ""; a missing item ends the checks."""
     for name in sys.stdin:
         try:
             hand.begin()
@@ -47,7 +47,7 @@ def findings(hand: Hand) -> Iterator[str]:
 
 
 def main() -> None:
-    """Do checks until stdin ends. What the test engine says goes to stderr."""
+    """Do checks until stdin ends. The test engine's output goes to stderr."""
     with os.fdopen(os.dup(1), "w", buffering=1) as answers:
         os.dup2(2, 1)
         for file in sorted(Path(__file__).parent.glob("check_*.py")):

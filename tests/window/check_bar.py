@@ -1,4 +1,4 @@
-"""What stays in sight while the panel scrolls, and where rows stay that are used."""
+"""Parts stay in sight while the panel scrolls, and rows in use stay where they are."""
 
 from typing import Any
 
@@ -30,7 +30,7 @@ def scrolled_down(hand: Hand) -> float:
 
 
 def refuse(hand: Hand, problem: str) -> None:
-    """Tell what went wrong."""
+    """Make the window show a problem."""
     hand.there(lambda: setattr(hand.session, "problem", problem))
     hand.ctx.yield_(4)
 
@@ -54,7 +54,7 @@ def commands_stay_in_sight_while_the_panel_scrolls(hand: Hand) -> None:
 
 @check
 def rows_end_below_the_bar(hand: Hand) -> None:
-    """What is scrolled away is neither seen nor clicked through it."""
+    """A row scrolled below the bar is neither seen nor clicked through it."""
     ctx, panel = hand.ctx, panel_of(hand)
     ctx.scroll_to_top(PANEL)
     ctx.yield_(2)

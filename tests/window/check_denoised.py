@@ -1,4 +1,4 @@
-"""The picture denoised in the window: beside the frames, with its error, and never in files."""
+"""The denoised picture in the window: made between frames, with its error, never in files."""
 
 from typing import Any
 

@@ -25,7 +25,7 @@ from tests.window.gestures import ball, place_of
 from tests.window.hand import Hand, check
 
 STEPS = 12  # of a drag: each takes the mouse a frame or two
-SIDE = 128  # pixels of the picture: 256 tiles, of which a frame does one
+SIDE = 128  # pixels of the picture: 256 tiles; a frame does one of them
 LEAST = STEPS // 3  # pictures that differ from the one before
 DRAWING, SETTLED = 0.05, 16  # seconds for a picture; frames after which the budget knows of it
 
@@ -44,7 +44,7 @@ class NoTime(FrameBudget):
 def slowly(hand: Hand, grain_read: float = math.inf) -> Iterator[None]:
     """Let frames have no time, once a picture is there by which the window knows its speed.
 
-    Pictures of more grain than `grain_read` are not shown. Those of one sample come near to the
+    Pictures of more grain than `grain_read` are not shown. Pictures of one sample come near the
     window's own limit: in some runs a drag would end with a change to first surfaces.
     """
     app = hand.window.app

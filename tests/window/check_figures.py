@@ -1,4 +1,4 @@
-"""Figures and marks belong to the picture beside them."""
+"""Figures and marks belong to the picture next to them."""
 
 import pytest
 from imgui_bundle import imgui
@@ -15,7 +15,7 @@ ENOUGH = 32  # samples: two observations
 
 @check
 def figures_belong_to_the_picture_next_to_them(hand: Hand) -> None:
-    """After a restart nothing of the picture before is told."""
+    """After a restart the window reports nothing of the picture before."""
     app, session = hand.window.app, hand.session
     hand.until(lambda: len(app.progress.looks) > 1)
     session.paused = True
@@ -39,7 +39,7 @@ def figures_belong_to_the_picture_next_to_them(hand: Hand) -> None:
 
 @check
 def history_of_earlier_views_is_marked_in_the_picture(hand: Hand) -> None:
-    """And no error is told then."""
+    """The window then reports no error."""
     app, session = hand.window.app, hand.session
 
     def move() -> None:

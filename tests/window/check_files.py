@@ -184,7 +184,7 @@ def a_scene_file_is_saved_by_its_key_with_its_comments(hand: Hand) -> None:
 
 
 def title(hand: Hand) -> str:
-    """Of the window, as the desktop has it."""
+    """The window's title, as the desktop has it."""
     return str(hand.there(lambda: glfw.get_window_title(glfw.get_current_context())))
 
 

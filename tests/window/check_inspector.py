@@ -1,4 +1,4 @@
-"""What looks at pixels: zoom, values under the mouse, histogram."""
+"""Tools that look at pixels: zoom, values under the mouse, histogram."""
 
 from functools import partial
 

@@ -1,4 +1,4 @@
-"""Keys: those that are typed, and those that are chosen."""
+"""Keys that are typed, and keys that are chosen."""
 
 from imgui_bundle import imgui
 

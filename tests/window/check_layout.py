@@ -13,7 +13,7 @@ def resized(hand: Hand, size: tuple[int, int]) -> None:
 
 
 def share_of(hand: Hand, name: str) -> tuple[float, float]:
-    """Of the window's width and height, that a part of it has."""
+    """The share of the window's width and height that a part of it has."""
     part = hand.there(lambda: imgui.internal.find_window_by_name(name).size)
     width, height = imgui.get_io().display_size
     return part.x / width, part.y / height
@@ -47,6 +47,6 @@ def tooltips_wrap(hand: Hand) -> None:
 
 
 def tooltip_width() -> float:
-    """Of the tooltip that is shown, 0 if there is none."""
+    """The width of the tooltip that is shown, 0 if there is none."""
     window = imgui.internal.find_window_by_name("##Tooltip_00")
     return window.size.x if window and window.active else 0.0

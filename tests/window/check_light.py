@@ -50,7 +50,7 @@ def a_relit_picture_is_that_of_a_fresh_render(hand: Hand) -> None:
 
 @check
 def particles_come_by_a_control_and_are_relit(hand: Hand) -> None:
-    """Beside them stand those of how many there are; a lamp is dimmed without a restart."""
+    """Controls for how many there are appear too; a lamp is dimmed without a restart."""
     session = hand.session
     move(hand, "caustics/on", None)
     hand.until(lambda: session.settings.caustics == "on")

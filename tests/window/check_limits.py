@@ -1,4 +1,4 @@
-"""Whatever a user does, to its extremes: the window goes on, and tells what cannot be."""
+"""Extreme inputs of a user: the window goes on, and reports what is impossible."""
 
 import os
 from collections.abc import Callable

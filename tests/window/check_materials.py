@@ -69,7 +69,7 @@ def a_principled_surface_is_edited_live(hand: Hand) -> None:
 
 @check
 def glass_is_tinted_and_nests(hand: Hand) -> None:
-    """What a file leaves open has no widget until it is asked for."""
+    """A value that a file leaves open has no widget until it is asked for."""
     show(hand, {"type": "dielectric"})
     assert not hand.ctx.item_exists("attenuation distance##material it")
     move(hand, "tinted##material it", None)

@@ -1,4 +1,4 @@
-"""Where newcomers stumbled in trials of the window: what is told, and what lies in sight."""
+"""Places where newcomers stumbled in trials: the window's messages, and what lies in sight."""
 
 from pathlib import Path
 from typing import Any

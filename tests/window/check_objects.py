@@ -35,7 +35,7 @@ def a_click_selects_and_restarts_nothing(hand: Hand) -> None:
     hand.settle()
     assert hand.session.scene.camera.look_at == shape.center
     right, up, _ = axes(hand.session.scene.camera)
-    click(hand, shape.center - 0.92 * shape.radius * (right + up))  # beside it, off the handles
+    click(hand, shape.center - 0.92 * shape.radius * (right + up))  # next to it, off the handles
     assert hand.window.app.selected != number
 
 

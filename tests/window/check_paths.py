@@ -1,4 +1,4 @@
-"""The paths of a pixel: asked for by a click, drawn, told, stored."""
+"""The paths of a pixel: asked for by a click, drawn, reported, stored."""
 
 from pathlib import Path
 
@@ -233,7 +233,7 @@ def escape_ends_the_choice_of_a_pixel_and_then_removes_its_paths(hand: Hand) -> 
 
 @check
 def the_table_of_lights_reports_what_was_added_without_being_scrolled(hand: Hand) -> None:
-    """Beside its strategy, in a panel of the usual width."""
+    """The light added stands next to its strategy, in a panel of the usual width."""
     columns: list[str] = []
 
     written = imgui.text_unformatted

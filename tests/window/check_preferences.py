@@ -65,7 +65,7 @@ def preferences_are_chosen_and_restart_nothing(hand: Hand) -> None:
 
 
 def tuned(value: Any) -> Any:
-    """What `move` types for it; None clicks or chooses."""
+    """The value that `move` types for it; None clicks or chooses."""
     return None if isinstance(value, bool | str) else value
 
 
@@ -82,7 +82,7 @@ def preferences_are_kept_while_the_window_is_open(hand: Hand) -> None:
 
 
 def kept(file: Path) -> dict[str, Any]:
-    """What a file of preferences says; nothing if there is none."""
+    """The values in a file of preferences; empty if there is none."""
     return dict(json.loads(file.read_text())) if file.exists() else {}
 
 

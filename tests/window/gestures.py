@@ -1,4 +1,4 @@
-"""What a user does in the window, in the words of the checks."""
+"""The gestures of a user in the window, in the words of the checks."""
 
 import math
 import os
@@ -154,7 +154,7 @@ def reported_lines() -> Iterator[list[str]]:
 
 
 def drop(hand: Hand, path: Path) -> None:
-    """A file on the window: what GLFW does when the X server tells it of one."""
+    """Drop a file on the window, as GLFW does when the X server reports one."""
 
     def dropped() -> None:
         library: Any = glfw

@@ -28,7 +28,7 @@ Check = Callable[["Hand"], None]
 
 CHECKS: dict[str, Check] = {}
 WAIT = 120.0  # seconds for what ends by itself, on a machine that has more to do
-DRAWN = 8  # frames, of which one is drawn: pixels take most of a frame's time
+DRAWN = 8  # one frame of so many is drawn: pixels take most of a frame's time
 SMALL: dict[str, Any] = {"width": 40, "height": 40, "samples": 1 << 16}
 
 
@@ -39,7 +39,7 @@ def check(function: Check) -> Check:
 
 
 class Hand:
-    """What a check can do with the window, and see of it."""
+    """The actions of a check on the window, and its view of it."""
 
     def __init__(self, window: Window) -> None:
         self.window = window

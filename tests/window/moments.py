@@ -135,7 +135,7 @@ def resting(window: Window, frame: int) -> None:
 
 
 def move_mouse() -> None:
-    """As a hand does: it is the X server that tells of it."""
+    """Move the mouse as a hand does: the X server reports it."""
     x11 = ctypes.CDLL(find_library("X11"))
     x11.XOpenDisplay.restype = x11.XDefaultRootWindow.restype = ctypes.c_void_p
     display = ctypes.c_void_p(x11.XOpenDisplay(None))

@@ -30,7 +30,7 @@ class CheckedWindow:
         self._process: subprocess.Popen[str] | None = None
 
     def trouble(self, check: str) -> str:
-        """What a check found wrong, "" for nothing."""
+        """The problem that a check found, or "" for none."""
         process = self._process = self._process or self._opened()
         found = "interrupted"
         try:
@@ -41,7 +41,7 @@ class CheckedWindow:
         return found and f"{found}\n{self._log.read_text()[-4000:]}"
 
     def close(self) -> int:
-        """End the process, if there is one, and tell its exit code."""
+        """End the process, if there is one, and return its exit code."""
         process, self._process = self._process, None
         if process is None:
             return 0
