@@ -1,8 +1,8 @@
 """`python -m tests.project.soak [--minutes M]`: scenes, sizes and settings change in one process.
 
-What the process holds must not grow. A stint changes a renderer that lives as long as the process,
-as the window does, and opens another, as a script does: of any tier and pipeline, now and then in
-a context of its own. Its picture is saved, and read again.
+The resources of the process must not grow. A stint changes a renderer that lives as long as the
+process, as the window does. It opens another, as a script does: of any tier and pipeline, now and
+then in a context of its own. Its picture is saved, and read again.
 """
 
 import argparse
@@ -36,7 +36,7 @@ PAGE = 4096  # bytes
 
 
 class Look(NamedTuple):
-    """What the process holds after so many stints."""
+    """The resources that the process holds after so many stints."""
 
     seconds: float
     stints: int
@@ -51,7 +51,7 @@ def crowd(count: int) -> Scene:
 
 
 def all_scenes() -> list[Scene]:
-    """What is changed between: those that come with glrt, hard ones, and crowds."""
+    """The scenes to change between: scenes that come with glrt, hard ones, and crowds."""
     found = [load(name) for name in scene_names()]
     found += [hard_scene(name) for name in HARD]
     return [*found, everything(), crowd(40), crowd(200), crowd(3000)]
@@ -76,7 +76,7 @@ def any_settings(chance: random.Random) -> dict[str, Any]:
 
 
 def any_layering(chance: random.Random, method: Method) -> Layering:
-    """What layers may hold: nothing by a method that keeps its light in probes."""
+    """Any content of layers; none for a method that keeps its light in probes."""
     return "none" if METHODS[method].has_probes else chance.choice(get_args(Layering))
 
 

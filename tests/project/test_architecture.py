@@ -53,10 +53,10 @@ PATH_LITERALS = {"0.0", "0.5", "1.0", "2.0", "3.0", "4.0", "3.14159265358979324"
     "3.814697265625e-6",  # 2^-18: 64 roundings of a float, how much wider boxes are
     "7.62939453125e-6",  # 2^-17: how far off the tree over shapes takes a ray to be
     "9.5367431640625e-7",  # 2^-20: how far off its triangle a ray starts
-    "3.90625e-3",  # 2^-8: the cosine from which on surfaces in one place are told apart
+    "3.90625e-3",  # 2^-8: the cosine from which on surfaces in one place are distinct
     *("0.2", "0.225", "1e-6", "0.05", "0.001", "1e-3", "1.5"),  # weights of probes, and their bias
     *("0.2126", "0.7152", "0.0722"),  # of luminance
-    *("0.9063", "0.1"),  # how alike pixels are that tell each other what lights them
+    *("0.9063", "0.1"),  # how alike pixels are that share what lights them
     "48.0",  # 1 / 48: how far apart they are, of the height of a frame
     "1024.0",  # 2^-10: how near before a point of an object a ray meets that object
     *("0.25", "0.45"),  # how far probes are pushed, and what for
@@ -120,7 +120,7 @@ def imported(tree: ast.AST) -> set[str]:
 
 
 def upward(importer: str, tree: ast.AST) -> set[str]:
-    """What a module imports though it does not stand above it.
+    """Modules imported by a module that does not stand above them.
 
     Two modules are compared where their paths part: by the order of the package they share.
     """

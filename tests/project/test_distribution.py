@@ -1,4 +1,4 @@
-"""What is handed out: a wheel and an sdist, with all that glrt needs to run and nothing else."""
+"""The distribution: a wheel and an sdist, with all that glrt needs to run and nothing else."""
 
 import re
 import subprocess

@@ -1,4 +1,4 @@
-"""What the README and the pages of docs/ refer to exists."""
+"""Everything that the README and the pages of docs/ refer to exists."""
 
 import re
 import subprocess
@@ -9,7 +9,7 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", ROOT / "CHANGELOG.md", *sorted((ROOT / "docs").rglob("*.md"))]
-OF_READERS = {  # files that a page tells readers to make, and the one that is written for a scene
+OF_READERS = {  # files that a page asks readers to make, and the one that is written for a scene
     *("test_pictures.py", "test_pictures", "scene_arrays.glsl"),
     *("shaders_glsl/shapes/annulus.glsl", "shaders_glsl/lights/annulus.glsl"),
     "shaders_glsl/bsdfs/velvet.glsl",

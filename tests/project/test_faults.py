@@ -1,4 +1,4 @@
-"""What goes wrong around a render, provoked: nothing that was saved is lost, one paragraph, exit 4.
+"""Faults around a render, provoked: nothing that was saved is lost, one paragraph, exit 4.
 
 docs/reference/faults.md is the table of all faults, with the tests that stand elsewhere.
 """
@@ -52,7 +52,7 @@ picture(64, 64).save(sys.argv[1])
 def test_a_process_killed_while_it_saves_leaves_the_old_file(
     tmp_path: Path, suffix: str, moment: str
 ) -> None:
-    """At worst a hidden file lies beside it: the new one, never under its name."""
+    """At worst a hidden file lies next to it: the new one, never under its name."""
     path = tmp_path / f"a{suffix}"
     path.write_text("the old file")
     done = subprocess.run([sys.executable, "-c", KILLED_IN_SAVE, str(path), moment])
@@ -65,7 +65,7 @@ def test_a_process_killed_while_it_saves_leaves_the_old_file(
 def test_a_folder_removed_during_a_render_costs_no_picture(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """What was rendered is saved in the folder for temporary files, and the message says where."""
+    """The picture is saved in the folder for temporary files, and the message says where."""
     folder, temporary = tmp_path / "pictures", tmp_path / "temporary"
     folder.mkdir()
     temporary.mkdir()
@@ -146,7 +146,7 @@ def test_a_kernel_that_the_driver_refuses_exits_4_with_file_and_line(
 
 @pytest.fixture
 def resets(monkeypatch: pytest.MonkeyPatch) -> list[int]:
-    """What the driver says of the context after each dispatch: 0 when the list is empty."""
+    """The driver's status of the context after each dispatch: 0 when the list is empty."""
     fates: list[int] = []
     monkeypatch.setattr(
         Context, "_reset_status", property(lambda _: lambda: fates.pop(0) if fates else 0)
@@ -244,7 +244,7 @@ for _ in range(3):
 def test_two_processes_may_share_a_cache(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, context: Context
 ) -> None:
-    """Both make the same reference at once; what is left is whole, and nothing beside it."""
+    """Both make the same reference at once; they leave one whole file, and nothing else."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     both = [subprocess.Popen([sys.executable, "-c", REFERENCE]) for _ in "ab"]
     assert [process.wait(timeout=250) for process in both] == [0, 0]

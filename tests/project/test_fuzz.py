@@ -18,7 +18,7 @@ from tests.support.slow_share import commit_of
 COMMIT = commit_of(Path(__file__).parent)
 START = int.from_bytes(hashlib.sha256(COMMIT.encode()).digest()[:4], "big")
 COUNTS = {
-    "scenes by the grammar": 160,  # of which about one in eight is sound
+    "scenes by the grammar": 160,  # about one in eight is sound
     "scenes with wrong values": 80,
     "files with wrong bytes": 80,
     "broken EXR": 80,

@@ -1,4 +1,4 @@
-"""A run of tests in several processes tells and judges the same as in one."""
+"""A run of tests in several processes reports and judges the same as in one."""
 
 import os
 import subprocess

@@ -1,4 +1,4 @@
-"""What the README and the guides tell people to type works as it stands there."""
+"""Commands that the README and the guides ask people to type work as they stand there."""
 
 import re
 import shlex

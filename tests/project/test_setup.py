@@ -1,4 +1,4 @@
-"""The set-up behind the Makefile: what it finds missing, what it keeps, what it makes anew."""
+"""The set-up behind the Makefile: what it finds missing, what it keeps, what it makes again."""
 
 import ast
 import os
@@ -62,7 +62,7 @@ def is_ready(checkout: Path, purpose: str = "render", strict: bool = False) -> b
 
 
 def made(commands: list[list[str]]) -> list[str]:
-    """What the recorded commands do: make an environment, install packages."""
+    """The effects of the recorded commands: make an environment, install packages."""
     return ["venv" if "venv" in command else "pip" for command in commands]
 
 

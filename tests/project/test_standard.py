@@ -50,7 +50,7 @@ def validator() -> None:
 
 
 def objections(shader: Source) -> Iterator[str]:
-    """What glslang has to say of a shader, led back to its files."""
+    """The objections of glslang to a shader, led back to its files."""
     entry = shader.lines[-1].origin.rpartition(":")[0]
     command = ["glslangValidator", "--stdin", "-S", entry.rpartition(".")[2]]
     done = subprocess.run(command, input=shader.text, capture_output=True, text=True, timeout=250)

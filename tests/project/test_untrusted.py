@@ -1,6 +1,6 @@
 """Scenes from strangers are data: whatever lies at the path, the answer is a scene or a paragraph.
 
-What would take a minute or gigabytes to read is refused; memory is held down, so that a guard that
+A file that would take a minute or gigabytes to read is refused. Memory is limited: a guard that
 fails shows as MemoryError and not as a machine that swaps.
 """
 
@@ -40,7 +40,7 @@ for source in sys.argv[1:]:
 
 
 def refusals(*paths: Path) -> list[str]:
-    """What `load` says of files, in one process that has little memory and time."""
+    """The messages of `load` for files, in one process that has little memory and time."""
     command = [sys.executable, "-c", HELD_DOWN, *map(str, paths)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=250)
     assert done.returncode == 0, done.stderr[-2000:]
@@ -220,7 +220,7 @@ def test_an_exr_that_claims_a_trillion_pixels_is_refused_by_its_header(tmp_path:
 
 
 def test_the_keys_of_a_scene_that_are_paths_are_known() -> None:
-    """The rest are numbers and names. What is a path goes through scene/assets.py."""
+    """The rest are numbers and names. Paths go through scene/assets.py."""
     assert texts_of(Scene.model_json_schema()) == {
         *("title", "name", "material", "group", "image", "file", "part"),
     }

@@ -202,7 +202,7 @@ def test_a_white_box_vanishes_under_a_white_sky(context: Context, turn: list[flo
 
 
 def test_a_glass_box_vanishes_under_a_white_sky(context: Context) -> None:
-    """What light gains by entering it loses by leaving, to rounding."""
+    """Light loses by leaving as much as it gains by entering, to rounding."""
     scene = scene_of([box(LOW, HIGH, "m", TURN)], {"m": glass(1.5)}, background=SKY)
     image = rendered(scene, context, 4, roulette=False, bounces=200, width=48, height=48)
     assert np.abs(image.radiance - 1).max() < 1e-4

@@ -1,4 +1,4 @@
-"""What absorbing glass leaves of light: exp(-depth), against float64."""
+"""Absorbing glass leaves exp(-depth) of light: against float64."""
 
 import numpy as np
 from numpy.testing import assert_allclose

@@ -109,7 +109,7 @@ MATERIALS = {"floor": MATTE, "lamp": lamp(2.0)}  # albedo 0.5 under radiance 2: 
 
 
 def form_factor(height: float, radius: float, aside: float) -> float:
-    """Of a disk parallel to the surface, its centre `aside` from the point's normal."""
+    """The form factor of a disk parallel to the surface, `aside` from the point's normal."""
     if aside == 0:
         return radius**2 / (radius**2 + height**2)
     h, r = height / aside, radius / aside

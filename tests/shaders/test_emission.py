@@ -1,4 +1,4 @@
-"""What lamps emit towards a direction, and where they can be seen from."""
+"""The light of lamps towards a direction, and the places that see them."""
 
 import math
 from typing import Any

@@ -95,7 +95,7 @@ def test_a_particle_carries_what_the_surface_leaves_of_it(
 def test_what_arrives_by_the_true_normal_is_spread_by_the_other(
     call_glsl: CallGlsl, kind: str
 ) -> None:
-    """What a path from the camera takes, by the flux that the surface gets and sends."""
+    """The throughput is a camera path's, scaled by the flux that the surface gets and sends."""
     what = """vec2(particle.path.throughput.g, eval_material(met, to_local(met.frame, wi)).g
         * abs(next.direction.z / wi.z) / next.pdf)"""
     found, _ = scattered(call_glsl, kind, "vec2", what, tilt=0.6)

@@ -44,7 +44,7 @@ def sampled(call_glsl: CallGlsl, scene: Scene, what: str, returns: str, **inputs
 
 
 def rectangle_solid_angle(a: float, b: float, height: float) -> float:
-    """Of a rectangle a x b seen from a point above one corner."""
+    """The solid angle of a rectangle a x b seen from a point above one corner."""
     return float(np.arctan(a * b / (height * np.sqrt(a * a + b * b + height**2))))
 
 
@@ -88,7 +88,7 @@ def test_directions_to_a_sphere_lamp_fill_its_cone_and_hit_it(call_glsl: CallGls
     assert (cosine**2).mean() == pytest.approx((1 + rim + rim**2) / 3, abs=1e-6)
     assert_allclose(ray.mean(axis=0), away / distance * (1 + rim) / 2, atol=2e-6)
     met = sampled(call_glsl, BALL, "closest_hit(light.ray).shape", "int", **args)
-    assert np.mean(met == 0) > 0.999  # but for the very rim
+    assert np.mean(met == 0) > 0.999  # except at the very rim
     hit = sampled(
         call_glsl, BALL, "vec2(light.distance, closest_hit(light.ray).distance)", "vec2", **args
     )[met == 0]

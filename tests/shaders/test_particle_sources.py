@@ -37,7 +37,7 @@ SUN: dict[str, Any] = {"direction": [0.3, 1, 0.2], "angle": 4.0, "irradiance": [
 
 @pytest.fixture
 def particle_files() -> str:
-    """What follows particles, without a film."""
+    """The text that follows particles, without a film."""
     return particle_text()
 
 
@@ -156,7 +156,7 @@ def test_particles_carry_the_flux_of_the_sun(call_glsl: CallGlsl, particle_files
 
 @pytest.mark.slow
 def test_lamps_and_the_sun_share_the_particles(call_glsl: CallGlsl, particle_files: str) -> None:
-    """What each carries in all is its own flux, whatever its share of the particles is."""
+    """Each carries its own flux in total, whatever its share of the particles is."""
     place = under_the_sun(BALL, FLAT)
     around = ball_around(place)
     assert around

@@ -32,7 +32,7 @@ from tests.support.particle_starts import (
 
 @pytest.fixture
 def particle_files() -> str:
-    """What follows particles, without a film."""
+    """The text that follows particles, without a film."""
     return particle_text()
 
 
@@ -176,7 +176,7 @@ def test_particles_carry_the_flux_of_their_lamp(
 def test_most_particles_leave_the_side_that_is_close_to_something(
     call_glsl: CallGlsl, particle_files: str, kind: str
 ) -> None:
-    """Of those that are not aimed, and each side has its flux all the same."""
+    """Most particles that are not aimed do, and each side still has its flux."""
     ceiling = plane([0, 1.05, 0], [0, -1, 0], "matte")
     place = scene(kind, BALL, FAR_BALL, ceiling)
     up = "float(particle.path.ray.direction.y > 0.0)"
@@ -200,7 +200,7 @@ def test_none_leaves_the_dark_side_of_a_lamp(call_glsl: CallGlsl, particle_files
 
 @pytest.mark.slow
 def test_a_lamp_inside_a_ball_aims_none_at_it(call_glsl: CallGlsl, particle_files: str) -> None:
-    """From in there it fills no cone: those that were to be aimed carry nothing."""
+    """From inside, the ball fills no cone: particles that were to be aimed carry nothing."""
     place = scene("quad", sphere([0, 1, -3.1], 1.5, "glass"))
     sizes = "length(particle.path.ray.direction) * float(particle.power.x > 0.0) + 0.0 * n"
     lengths = starts(call_glsl, particle_files, place, sizes, "float")
@@ -212,7 +212,7 @@ def test_a_lamp_inside_a_ball_aims_none_at_it(call_glsl: CallGlsl, particle_file
 
 
 def test_half_of_the_particles_are_aimed(call_glsl: CallGlsl, particle_files: str) -> None:
-    """At either ball a quarter, beside those that go there by the cosine."""
+    """A quarter is aimed at either ball; others go there by the cosine."""
     place = scene("quad", BALL, FAR_BALL)
     hit = "float(closest_hit(particle.path.ray).shape) + 0.0 * n"
     shapes = starts(call_glsl, particle_files, place, hit, "float")

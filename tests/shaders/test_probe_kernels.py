@@ -1,4 +1,4 @@
-"""The kernels of probes, and those that read them, as the driver sees them."""
+"""The kernels of probes, and kernels that read probes, as the driver sees them."""
 
 import moderngl
 import pytest

@@ -74,7 +74,7 @@ class Seen:
         return d, y / np.hypot(d, y), (y + self.length) / np.hypot(d, y + self.length)
 
     def shares(self, a: Array, b: Array) -> tuple[Array, Array]:
-        """What a sample was made of."""
+        """The two numbers from which a sample was made."""
         u = (np.arctan((self.x0 + a * self.width) / self.z) - np.arctan(self.x0 / self.z)) / (
             self.angle
         )
@@ -83,7 +83,7 @@ class Seen:
         return u, (y / np.hypot(d, y) - low) / (high - low)
 
     def solid_angle(self) -> float:
-        """Of its two triangles (van Oosterom and Strackee 1983)."""
+        """The sum over its two triangles (van Oosterom and Strackee 1983)."""
         corners = [self.corner, self.corner + self.u, self.corner + self.u + self.v]
         corners += [self.corner + self.v]
         return abs(self._triangle(*corners[:3])) + abs(self._triangle(corners[0], *corners[2:]))
@@ -162,7 +162,7 @@ def test_no_sample_weighs_more_than_a_half_space(call_glsl: CallGlsl) -> None:
 
 @pytest.mark.parametrize("name", LAMPS)
 def test_the_density_integrates_to_one_over_all_directions(call_glsl: CallGlsl, name: str) -> None:
-    """Of the rays that meet the lamp, as light found by scattering is weighed."""
+    """The density is that of rays that meet the lamp: it weighs light found by scattering."""
     side = 1200
     z, turn = (unit_square(side) * 2 - 1).T
     r, phi = np.sqrt(1 - z * z), np.pi * turn
@@ -231,8 +231,9 @@ def test_a_lamp_just_below_its_ceiling_lights_it_up_to_the_rim(
 ) -> None:
     """A strip of the ceiling that is as wide as the gap, seen through a long lens.
 
-    At the distance s beside a long lamp, and h above its plane, the form factor is that of a
-    half-plane, (1 - s / sqrt(s^2 + h^2)) / 2. Points by area are near enough once in ten thousand.
+    At the distance s from the edge of a long lamp, and h above its plane, the form factor is that
+    of a half-plane, (1 - s / sqrt(s^2 + h^2)) / 2. Points by area are near enough once in ten
+    thousand.
     """
     gap, albedo = 0.001, 0.5
     objects = [

@@ -25,7 +25,7 @@ for (int i = 0; i < {count}; i += 1) {{
 def test_an_integral_keeps_its_mean_however_many_are_offered(
     call_glsl: CallGlsl, count: int, variance: float
 ) -> None:
-    """Of x^2 over 0 to 1, with x as the target: 1 / 3.
+    """The integral of x^2 over 0 to 1, with x as the target, is 1 / 3.
 
     The variance falls from that of even numbers, 4 / 45, to that of numbers with the density 2 x,
     1 / 72.

@@ -28,7 +28,7 @@ def drawn(seeds: Array, count: int) -> Array:
 def sums_over_frames(
     call_glsl: CallGlsl, first_sample: int, seed: int, seeding: str = "pixel_seed", skipped: int = 0
 ) -> Array:
-    """Of each pixel, one number of each frame less 1/2, summed and scaled to variance 1."""
+    """Each pixel's sum of one number of each frame less 1/2, scaled to variance 1."""
     wrong = f"""
         uint index_plus_frame(ivec2 pixel, int frame, uint seed) {{
             return pcg_hash(uint(pixel.y * {SIZE} + pixel.x) + uint(frame) + seed);
@@ -58,7 +58,7 @@ def correlation(a: Array, b: Array) -> float:
 
 
 def departures(z: Array) -> dict[str, float]:
-    """What a picture of scores that should be independent and normal has beyond the bounds."""
+    """Figures beyond the bounds, of a picture of scores that should be independent and normal."""
     side = SIZE // BLOCK
     blocks = z.reshape(side, BLOCK, side, BLOCK).sum(axis=(1, 3)) / BLOCK
     figures = {  # its value less the value wanted, and its standard deviation

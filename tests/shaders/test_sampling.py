@@ -1,5 +1,6 @@
-"""Samplers follow the densities they tell: chi-square on the production code, with its own random
-numbers, against quadratures of its own densities.
+"""Samplers follow the densities they report: chi-square on the production code.
+
+The code uses its own random numbers; the test compares with quadratures of its own densities.
 
 A density that is wrong in one place shows in its cell; one that does not integrate to 1, or a
 sample where it is 0, fails at once. That weights equal value over density stands in test_material

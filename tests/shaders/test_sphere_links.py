@@ -96,7 +96,7 @@ class Links(NamedTuple):
     spread: Array  # solid angle at the eye over area at the vertex, across the ray
 
     def inputs(self) -> dict[str, Array]:
-        """What ARC and a crossing read."""
+        """The inputs of ARC and of a crossing."""
         sine = self.way.sine
         return {"eye": self.eye, "vertex": self.vertex, "ior": self.ior, "sine": sine}
 
@@ -157,7 +157,7 @@ def ways_found(call_glsl: CallGlsl, chords: int) -> tuple[Links, dict[str, Array
 
 @pytest.mark.parametrize("chords", [0, 1, 2])
 def test_every_way_of_light_is_found(call_glsl: CallGlsl, chords: int) -> None:
-    """By one of the branches, and by the one that its slope tells."""
+    """One of the branches finds it, and so does the branch that its slope names."""
     found, sines = ways_found(call_glsl, chords)
     slope = sines.pop("slope")
     off = {name: np.abs(sine - found.way.sine) for name, sine in sines.items()}
@@ -178,13 +178,13 @@ def sense_of(found: Links) -> Array:
 @pytest.mark.slow_cases("2-upper")
 @pytest.mark.parametrize(("chords", "branch"), KINDS)
 def test_each_branch_is_met(call_glsl: CallGlsl, chords: int, branch: str) -> None:
-    """And turns as it tells."""
+    """Each branch also turns in the sense that it reports."""
     found, sines = ways_found(call_glsl, chords)
     is_met = np.abs(sines[branch] - found.way.sine) < 1e-5
     assert is_met.sum() > 50
     call = f"sense_of(Branch({BRANCHES[branch]}), {chords}) + 0.0 * x"
     (told,) = call_glsl(call, scene=place(), options=ON, x=np.zeros(1))
-    assert (sense_of(found)[is_met] == told).mean() > 0.99  # but with eye and vertex in line
+    assert (sense_of(found)[is_met] == told).mean() > 0.99  # except with eye and vertex in line
 
 
 @pytest.mark.slow

@@ -66,7 +66,7 @@ def test_the_first_row_of_an_image_is_on_top(call_glsl: CallGlsl) -> None:
 
 @pytest.mark.parametrize("far", [1e3, -1e6, 1e15])
 def test_places_far_away_are_within_the_image(call_glsl: CallGlsl, far: float) -> None:
-    """Of coordinates that have no digits left for the place, a pixel all the same."""
+    """Coordinates with no digits left for the place still give a pixel."""
     uv = np.random.default_rng(2).uniform(0, 1, (500, 2)) + far
     found = sampled(call_glsl, of_texture({}), uv)
     assert np.isfinite(found).all()

@@ -151,14 +151,14 @@ def test_nothing_jumps_between_tables() -> None:
 
 @pytest.mark.parametrize("elevation", [3.0, 40.0])
 def test_its_image_is_the_formula(elevation: float) -> None:
-    """Beside the two rows at the horizon, where the image goes over to the ground."""
+    """Except in the two rows at the horizon, where the image changes to the ground."""
     towards, sky = Sun(elevation=elevation, azimuth=70.0).towards, ClearSky()
     direction = upper(20_000)
     direction = direction[direction[:, 1] > np.sin(np.pi / 512)]
     found = sky64(sky_pixels(3.0, 0.3, tuple(towards)), direction)
     expected = sky.radiance(towards, direction)
     off = np.abs(found - expected) / expected.mean()
-    assert off.max() < 0.05  # beside the sun and above the horizon
+    assert off.max() < 0.05  # next to the sun and above the horizon
     assert off.mean() < 1e-3
 
 

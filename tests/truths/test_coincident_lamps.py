@@ -69,7 +69,7 @@ def triangles(start: float, end: float, height: float = 1.0) -> dict[str, Any]:
     return mesh(quads(edges), "lamp", smooth=False)
 
 
-# What hangs above the floor, and the light below.
+# Objects above the floor, and the light below.
 CASES: dict[str, tuple[list[dict[str, Any]], float]] = {
     "two that overlap, the dim one first": (
         [over(-1, 1, "lamp"), over(0, 2, "bright")],
@@ -208,7 +208,7 @@ def test_overlapping_lamps_are_seen_without_a_speck(context: Context, turned: bo
 @pytest.mark.slow
 @pytest.mark.parametrize("method", METHODS)
 def test_a_furnace_of_doubled_walls_is_even(context: Context, method: str) -> None:
-    """Walls of radiance 1 and albedo 1/2, parts of which are there twice: 2 (1 - 2^-7)."""
+    """Walls of radiance 1 and albedo 1/2, partly doubled: 2 (1 - 2^-7)."""
     wall = {"type": "light", "emission": [1.0] * 3, "color": [0.5] * 3}
     shapes = [
         *box_of_quads("wall"),

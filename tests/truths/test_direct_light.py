@@ -24,7 +24,7 @@ FLAT, STEEP = (np.array(SKY["bottom"]) + SKY["top"]) / 2, (np.array(SKY["top"]) 
 
 
 def sphere_form_factor(s2: float, cosine: float) -> float:
-    """Of a ball with s2 = (radius / distance)^2 whose centre stands `cosine` above the horizon."""
+    """A ball's form factor: s2 = (radius / distance)^2, its centre `cosine` above the horizon."""
     if cosine * cosine > s2:
         return s2 * max(cosine, 0)
     x, sine = math.sqrt(1 / s2 - 1), math.sqrt(1 - cosine * cosine)
@@ -34,7 +34,7 @@ def sphere_form_factor(s2: float, cosine: float) -> float:
 
 
 def rectangle_form_factor(a: float, b: float) -> float:
-    """Of a rectangle a x b, parallel to the surface, one corner at height 1 above the point."""
+    """A rectangle a x b, parallel to the surface, one corner at height 1 above the point."""
     p, q = math.hypot(1, a), math.hypot(1, b)
     return (a / p * math.atan(b / p) + b / q * math.atan(a / q)) / (2 * math.pi)
 
@@ -174,7 +174,7 @@ TURN = np.linalg.qr([[0.3, -0.7, 0.5], [0.8, 0.2, -0.4], [-0.1, 0.6, 0.9]])[0]
 def test_tilted_floor_neither_shadows_nor_hits_itself(
     context: Context, seen_from: str, shape: str, method: str
 ) -> None:
-    """Away from the axes a point lies beside its surface by rounding, on either side of it."""
+    """Away from the axes rounding puts a point off its surface, on either side of it."""
     side = 1 if seen_from == "above" else -1
 
     def turned(*vector: float) -> list[float]:

@@ -48,7 +48,7 @@ def test_each_side_is_a_gradient_of_its_own(call_glsl: CallGlsl) -> None:
 def test_a_floor_gathers_its_half_of_the_sky(
     context: Context, up: int, pole: Array, method: str
 ) -> None:
-    """Of the cosine-weighted sky, two thirds are the pole's."""
+    """The pole gives two thirds of the cosine-weighted sky."""
     eye = {"position": [0, up, 1], "look_at": [0, 0, 0], "fov": 10}
     scene = lit(plane([0, 0, 0], [0, 1, 0], "m"), **eye)
     image = rendered(scene, context, 32, method=method, bounces=1, width=16, height=16)

@@ -37,7 +37,7 @@ def furnace(faces: Faces, material: dict[str, Any], **more: Any) -> Scene:
 def test_white_facets_vanish_before_a_white_sky(
     context: Context, faces: Faces, method: str
 ) -> None:
-    """What is convex is left after one bounce, at every pixel and sample."""
+    """A path leaves a convex mesh after one bounce, at every pixel and sample."""
     scene = furnace(faces, WHITE, smooth=False)
     image = rendered(scene, context, 64, method=method, roulette=False, bounces=2)
     assert (image.radiance == 1).all()

@@ -1,4 +1,4 @@
-"""What probes make of light that is known by direction, and surfaces of probes that are known."""
+"""Probes under light that is known by direction, and surfaces lit by known probes."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -27,7 +27,7 @@ def linear(towards: Floats) -> Floats:
 
 
 def irradiance(normals: Floats) -> Floats:
-    """Of that, over the half space of each normal: pi a + 2 pi / 3 b . n."""
+    """The irradiance of that, over the half space of each normal: pi a + 2 pi / 3 b . n."""
     return np.asarray(np.pi * MEAN + 2 * np.pi / 3 * (normals @ SLOPE))
 
 
@@ -53,7 +53,7 @@ def test_light_that_is_linear_in_direction_is_integrated(context: Context) -> No
 
 
 def between(tile: Floats, towards: Floats) -> Floats:
-    """What a map with its border says of directions, (n,): a sampler of the test's own."""
+    """The values of a map with its border in directions, (n,): the test's own sampler."""
     square = towards[:, :2] / np.abs(towards).sum(axis=1)[:, None]
     signs = np.where(square >= 0, 1.0, -1.0)
     folded = np.where(towards[:, 2:] < 0, (1 - np.abs(square[:, ::-1])) * signs, square)
@@ -66,7 +66,7 @@ def between(tile: Floats, towards: Floats) -> Floats:
 
 
 def test_what_is_read_between_texels_has_no_edge(context: Context) -> None:
-    """Nor where the square is folded, in directions downwards beside the axes."""
+    """The fold of the square has none either, in downward directions next to the axes."""
     with lit_by(context) as tracer:
         texture = tracer.maps["probe_light"]
         shape = texture.height, IN_ROW * LIGHT_MAP, 4

@@ -55,7 +55,7 @@ def inner(tracer: ProbeTracer, name: str) -> Floats:
 
 
 def directions(side: int) -> Floats:
-    """Of the inner texels of a map, (side, side, 3)."""
+    """The directions of the inner texels of a map, (side, side, 3)."""
     steps = (np.arange(side) + 0.5) / side * 2 - 1
     y, x = np.meshgrid(steps, steps, indexing="ij")
     z = 1 - np.abs(x) - np.abs(y)
@@ -223,7 +223,7 @@ INSIDE = {"min": [-1.5] * 3, "max": [1.5] * 3}
 
 
 def placed(context: Context, things: list[dict[str, Any]]) -> Floats:
-    """Where 27 probes stand beside the middles of their cells, and whether they are of use."""
+    """Where 27 probes stand relative to the middles of their cells, and whether they are used."""
     scene = scene_of(things, {"m": MATTE}, {"position": [0, 0, 9]}, probes=INSIDE)
     with probes_of(scene, context, probes=3) as (_, tracer):
         tracer.update(0)

@@ -1,4 +1,4 @@
-"""What facets reflect of even light, beside figures that others have published."""
+"""The share of even light that facets reflect, against figures that others have published."""
 
 import numpy as np
 import pytest

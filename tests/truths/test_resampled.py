@@ -64,7 +64,7 @@ def lit_by(name: str, **more: Any) -> Scene:
 
 
 def means(scene: Scene, context: Context, seeds: int, first: int = 0, **settings: Any) -> Floats:
-    """Of pictures of an observation each, by other seeds: independent, as pixels are not."""
+    """Means of pictures of an observation each, by other seeds: independent, unlike pixels."""
     ways = {**WAY, "width": 24, "height": 24, "samples": 16, **settings}
     found = []
     with rendering(scene, context, **ways) as renderer:
@@ -157,7 +157,7 @@ def test_what_a_surface_has_found_is_not_hidden_from_it(context: Context) -> Non
 
 @pytest.mark.slow
 def test_a_point_that_is_asked_for_five_times_counts_once(context: Context) -> None:
-    """Of the same pixel: whatever rays say of its point, they must say of each."""
+    """All five are one pixel's point: rays must give the same answer for each."""
     text = read(RESAMPLING)
     radius = "int most = max(int(float(frame.size.y) * NEAR_PART), 1);"
     assert text.count(radius) == 1

@@ -52,7 +52,7 @@ def test_distance_of_a_huge_ground_ball_is_known_to_a_rounding_of_its_radius(
 
 
 def test_balls_of_all_sizes_are_hit_from_a_hundred_thousand_radii(call_glsl: CallGlsl) -> None:
-    """Hit or miss as in float64, but for rays that pass the rim closer than their own rounding."""
+    """Hit or miss as in float64, except rays that pass the rim closer than their own rounding."""
     random = np.random.default_rng(7)
     n = 200_000
     radius = 10.0 ** random.uniform(-4, 6, n)
@@ -91,8 +91,8 @@ def test_room_of_any_size_keeps_its_sum(context: Context, radius: float, method:
 def test_ball_on_a_floor_far_from_the_origin_is_lit_as_at_home(
     context: Context, radius: float, offset: float
 ) -> None:
-    """The point where a ball of radius r rests sees nothing of a white sky; beside it, at the
-    distance 2r, the ball hides (1/sqrt(5))^2 / sqrt(5) of it.
+    """The point where a ball of radius r rests sees nothing of a white sky. At the distance
+    2r from it, the ball hides (1/sqrt(5))^2 / sqrt(5) of the sky.
     """
     away = [offset, 0.3 * offset, -0.7 * offset]
     at = [away[0] + 2 * radius, away[1], away[2]]

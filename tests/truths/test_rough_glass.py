@@ -50,7 +50,7 @@ def test_methods_agree_on_light_through_rough_glass(context: Context, things: st
 
 
 def test_nearly_smooth_glass_looks_smooth(context: Context) -> None:
-    """Of roughness 0.001 the lobe is narrower than a pixel by far; that of 1e-5 is a delta."""
+    """At roughness 0.001 the lobe is far narrower than a pixel; at 1e-5 it is a delta."""
     pictures = [
         rendered(
             scene_of(

@@ -63,7 +63,7 @@ def test_directions_see_what_float64_says(
 def test_pixels_stand_where_the_format_says(
     call_glsl: CallGlsl, column: int, row: int, direction: list[float]
 ) -> None:
-    """Of 16 x 8 pixels, an axis lies on the corner of four: each has a quarter of it."""
+    """In 16 x 8 pixels an axis lies on the corner of four: each has a quarter of it."""
     scene = under(spot(column, row), FLOOR)
     point = np.array([direction], np.float32)
     found = seen(call_glsl, scene, point)

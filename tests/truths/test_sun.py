@@ -39,7 +39,7 @@ def sunny(*things: dict[str, Any], camera: Any = ABOVE, **sun: Any) -> Scene:
 def test_a_floor_receives_the_irradiance_times_the_sine(
     context: Context, method: str, elevation: float
 ) -> None:
-    """Of a small disc, which is whole above the horizon."""
+    """The disc is small, and wholly above the horizon."""
     scene = sunny(FLOOR, elevation=elevation, azimuth=40.0)
     image = rendered(scene, context, 64, method=method, bounces=1)
     truth = IRRADIANCE * np.sin(np.radians(elevation)) * 0.5 / np.pi
@@ -72,7 +72,7 @@ def test_the_sun_stands_where_it_is_said_to(where: dict[str, Any], towards: list
 
 @pytest.mark.parametrize("method", METHODS)
 def test_a_camera_and_a_mirror_see_the_disc(context: Context, method: str) -> None:
-    """All pixels of a small field of view, to rounding; none beside the rim."""
+    """All pixels of a small field of view see it, to rounding; none do next to the sun."""
     up = {"position": [0, 1, 0], "look_at": [0, 2, 0], "up": [0, 0, 1], "fov": 0.3}
     radiance = IRRADIANCE / (np.pi * np.sin(np.radians(0.265)) ** 2)
     direct = rendered(sunny(camera=up), context, 4, method=method).radiance

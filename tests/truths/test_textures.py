@@ -235,7 +235,7 @@ def test_a_lamp_behind_a_hole_is_weighed_from_where_the_path_scattered(context: 
 
 @pytest.mark.slow
 def test_a_hole_shows_what_is_behind_in_aovs_too(context: Context) -> None:
-    """Of a sheet that is cut away everywhere, nothing is left."""
+    """Nothing is left of a sheet that is cut away everywhere."""
     gone = principled(alpha=even(0.25), alpha_cutoff=0.5)
     wall = quad([-3, 3, -2], [6, 0, 0], [0, -6, 0], "floor")
     sheet = quad([-3, 3, -1], [6, 0, 0], [0, -6, 0], "m")

@@ -63,7 +63,7 @@ def test_ball_before_a_lamp_takes_its_share_of_the_light(
 
 
 def polygon_form_factor(corners: Floats) -> float:
-    """Of a polygon seen from the origin, whose normal is +y (Lambert 1760).
+    """The form factor of a polygon seen from the origin, whose normal is +y (Lambert 1760).
 
     Each edge brings its angle times the cosine between the normal of its triangle with the origin
     and the receiver's; the part below the horizon is cut off first.
@@ -159,7 +159,7 @@ def test_glass_slab_shows_both_skies(context: Context, cosine: float, ior: float
 
 
 def fresnel(cosine: float, ior: float) -> float:
-    """Of unpolarised light, by the angles: 1/2 (sin^2(i-t)/sin^2(i+t) + tan^2(i-t)/tan^2(i+t))."""
+    """Unpolarised light, by the angles: 1/2 (sin^2(i-t)/sin^2(i+t) + tan^2(i-t)/tan^2(i+t))."""
     outer = math.acos(cosine)
     if math.sin(outer) >= ior:
         return 1.0

@@ -54,7 +54,7 @@ def test_even_colours_are_the_material_of_that_colour_to_the_bit(
 
 @pytest.mark.slow
 def test_each_mesh_has_its_own_colours(context: Context) -> None:
-    """Also beside one that has none, and one that is hidden."""
+    """This holds also next to a mesh that has none, and with one that is hidden."""
     left, right = {"scale": 0.5, "translate": [-1, 0, 0]}, {"scale": 0.5, "translate": [1, 0, 0]}
     hidden = evenly(1, "white", [1, 0, 0], hidden=True)
     coloured = room(hidden, mesh(blob(1), "grey", **left), evenly(2, "white", COLOR, **right))

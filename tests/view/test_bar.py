@@ -16,7 +16,7 @@ SIZE = ImVec2(300.0, 200.0)
 
 
 class Panel:
-    """A panel of 40 buttons, of which "used" stands behind some that come and go."""
+    """A panel of 40 buttons: the button "used" stands behind some that come and go."""
 
     def __init__(self) -> None:
         context = imgui.create_context()
@@ -161,7 +161,7 @@ def test_room_above_goes_once_it_is_scrolled_out_of_sight(panel: Panel) -> None:
 
 
 def test_a_row_is_not_kept_under_a_bar_that_grows(panel: Panel) -> None:
-    """What went wrong is told there; a row in use that is lower stays."""
+    """The bar shows what went wrong; a row in use that is lower stays."""
     panel.frame(3, 150.0)
     panel.frame(2)
     before = panel.use()

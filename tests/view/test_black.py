@@ -58,7 +58,7 @@ def test_an_object_around_the_camera_is_known(objects: list[Any], expected: int 
 
 @pytest.fixture
 def looked(context: Context) -> Iterator[Any]:
-    """Renders a scene, and tells why it is black."""
+    """Renders a scene, and reports why it is black."""
     sessions: list[Session] = []
     with context.gl:
         picture = Picture(context.gl)

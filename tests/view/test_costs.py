@@ -1,4 +1,4 @@
-"""What an edit costs is true over the whole range of its control."""
+"""The stated cost of an edit is true over the whole range of its control."""
 
 import pytest
 

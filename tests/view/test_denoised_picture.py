@@ -40,7 +40,7 @@ def denoised() -> Iterator[DenoisedPicture]:
 
 
 def frame(session: Session, denoised: DenoisedPicture) -> None:
-    """Of a view of the denoised picture, as `PictureView` makes it."""
+    """Do a frame of a view of the denoised picture, as `PictureView` does."""
     session.aovs = "albedo", "normal"
     session.stop = denoised.stop(session)
     session.advance(0.05, 24)
@@ -58,7 +58,7 @@ def found(session: Session, denoised: DenoisedPicture, samples: int) -> Image:
 
 
 def expected(session: Session, samples: int) -> Image:
-    """What a render without a window shows."""
+    """The image of a render without a window."""
     settings = settings_for(session.settings, samples=samples, denoise="auto")
     renderer = Renderer(session.scene, settings, session.context)
     return renderer.render().image()

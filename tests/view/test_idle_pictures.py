@@ -1,4 +1,4 @@
-"""While a faster kernel has its turn, no bit of the picture and no preview tells."""
+"""While a faster kernel has its turn, no bit of the picture and no preview changes."""
 
 from typing import Any
 

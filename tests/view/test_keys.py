@@ -1,4 +1,4 @@
-"""Keys by name: what may mean what, and what a clash is told as."""
+"""Keys by name: what may mean what, and how a clash is reported."""
 
 import pytest
 

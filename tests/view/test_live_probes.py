@@ -61,7 +61,7 @@ def test_probes_go_on_while_edits_follow_one_another(opened: Opened) -> None:
     assert session.lag == 0.0
     dim(session, 0.5)
     assert session.lag == pytest.approx(HYSTERESIS)
-    frames(session, 3)  # the picture begins anew with each, though nothing is edited
+    frames(session, 3)  # the picture begins again with each, though nothing is edited
     assert session.lag == pytest.approx(HYSTERESIS**4)
     dim(session, 0.25)
     assert session.lag == pytest.approx(HYSTERESIS)

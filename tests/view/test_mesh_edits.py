@@ -44,7 +44,7 @@ def things() -> Scene:
 
 @pytest.mark.slow
 def test_every_pixel_shows_what_is_picked_there(context: Context) -> None:
-    """But for pixels at the rim of something, of which a sample may see another part."""
+    """Pixels at the rim of something are excepted: a sample there may see another part."""
     scene = things()
     renderer = Renderer(
         scene, context=context, width=SIZE, height=SIZE, bounces=0, sampler="independent"

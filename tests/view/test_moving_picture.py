@@ -1,4 +1,4 @@
-"""History in the window: shown while the camera moves, and not where an error is told."""
+"""History in the window: shown while the camera moves, and not where an error is reported."""
 
 from collections.abc import Callable, Iterator
 

@@ -1,4 +1,4 @@
-"""What lies under a point of the picture, and shapes that are moved by a gizmo."""
+"""The object under a point of the picture, and shapes that are moved by a gizmo."""
 
 import math
 from contextlib import suppress

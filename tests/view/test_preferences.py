@@ -1,4 +1,4 @@
-"""Preferences are kept whole, and a broken file is told."""
+"""Preferences are kept whole, and a broken file is reported."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""The size of previews: what fits into a frame, beside what an edit takes."""
+"""The size of previews: what fits into a frame, in addition to the work of an edit."""
 
 from itertools import pairwise
 from typing import Any

@@ -179,7 +179,7 @@ class Behind:
 def test_a_picture_that_is_waited_for_gets_long_turns(
     session: Session, samples: int, share: float
 ) -> None:
-    """Else it takes a small share of a frame, the rest of which nothing needs."""
+    """Otherwise it takes a small share of a frame; nothing needs the rest of the frame."""
     nothing: Any = None
     show, kept = PictureView(nothing, nothing, nothing, nothing, nothing), Behind(samples)
     start(session)

@@ -43,7 +43,7 @@ EXAMPLES: dict[str, Any] = {
     "light": Light(emission=(1, 2, 3), color=(0.5, 0.5, 0.5)),
     "principled": Principled(color=(0.1, 0.2, 0.3), roughness=0.3, metallic=1.0, ior=1.75),
 }
-# What a type keeps of another one.
+# Values that a type keeps of another one.
 KEPT: dict[tuple[str, str], dict[str, Any]] = {
     ("lambertian", "metal"): {"color": (0.1, 0.2, 0.3), "emission": (1, 0, 0), "group": "g"},
     ("lambertian", "light"): {"color": (0.1, 0.2, 0.3), "emission": (1, 0, 0), "group": "g"},

@@ -1,4 +1,4 @@
-"""What the window edits, without a window: edits, costs, and the time of a frame."""
+"""The window's session without a window: edits, costs, and the time of a frame."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""What undo takes back, in words; no window, no OpenGL."""
+"""The changes that undo takes back, in words; no window, no OpenGL."""
 
 from dataclasses import replace
 from typing import Any

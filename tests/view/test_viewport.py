@@ -105,7 +105,7 @@ def test_arrows_in_an_open_list_leave_the_camera_alone(io: imgui.IO, is_open: bo
 
 
 def struck(app: Any, io: imgui.IO, *events: tuple[imgui.Key, bool]) -> None:
-    """A frame after keys went down or up, as the backend of GLFW tells them."""
+    """A frame after keys went down or up, as the backend of GLFW reports them."""
     for key, is_down in events:
         if key == imgui.Key.left_ctrl:
             io.add_key_event(imgui.Key.mod_ctrl, is_down)
@@ -153,7 +153,7 @@ def test_a_wheel_turned_with_ctrl_let_go_in_the_same_frame_zooms(io: imgui.IO) -
 
 
 def files(folder: Path, source: str = "") -> Files:
-    """What is open, without a session's renderer."""
+    """The open files, without a session's renderer."""
     session: Any = SimpleNamespace(scene=load("cornell"), problem="", settings=Settings())
     recent = folder / "recent.json"
     return Files(session, Messages(session), source, recent, lambda _: None, lambda _: None)

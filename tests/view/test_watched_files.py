@@ -35,7 +35,7 @@ class Opened:
         self.look()
 
     def _session(self, scene: Scene) -> Any:
-        """What stands for a session: it renders nothing."""
+        """A stand-in for a session: it renders nothing."""
         return SimpleNamespace(scene=scene, problem="", settings=Settings(), edit=self._edit)
 
     def _edit(self, scene: Scene) -> None:

@@ -156,7 +156,7 @@ def test_in_a_window_without_compute_shaders(old_window: CheckedWindow, check: s
 
 
 def assert_well(window: CheckedWindow, check: str) -> None:
-    """A check finds nothing wrong; what it does find is shown as it is told."""
+    """A check finds nothing wrong; otherwise the test fails with the check's own report."""
     trouble = window.trouble(check)
     if trouble:
         pytest.fail(trouble, pytrace=False)

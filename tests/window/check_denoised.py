@@ -1,4 +1,4 @@
-"""The denoised picture in the window: made between frames, with its error, never in files."""
+"""The denoised picture in the window: made alongside frames, with its error, never in files."""
 
 from typing import Any
 
