@@ -32,7 +32,7 @@ pytest_plugins = ["tests.support.slow_share", "tests.support.alarms", "tests.sup
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
 # Some commands get an empty cache folder. Mesa keeps its kernels where it always does: to compile
-# them anew takes longer than the tests.
+# them again takes longer than the tests.
 os.environ.setdefault(
     "MESA_SHADER_CACHE_DIR", os.environ.get("XDG_CACHE_HOME") or str(Path.home() / ".cache")
 )
@@ -116,9 +116,9 @@ def call_glsl(ctx: moderngl.Context) -> CallGlsl:
     Inputs are arrays of n floats, ints or uints, or (n, 2..4) vectors, named as in the
     expression; `returns` is the GLSL type of the result ("float", "vec3", "uint", "bool").
     `setup` are statements that stand before the expression; `functions` go in front of main.
-    All files of the path text are included, with every feature compiled in, or with those of
-    `scene` and its blocks, by the independent sampler; `constants` override the prelude, and
-    `options` are settings beside those that the scene wishes.
+    All files of the path text are included, by the independent sampler. Every feature is compiled
+    in, or only the features of `scene` and its blocks. `constants` override the prelude, and
+    `options` are settings in addition to the scene's.
     """
 
     def call(

@@ -46,14 +46,14 @@ def mixed(count: int) -> Scene:
 
 
 def weights(rows: Array, origin: Array) -> Array:
-    """Of clusters or parts at a point, float64: flux over squared distance."""
+    """The weights of clusters or parts at a point, float64: flux over squared distance."""
     away2 = ((rows["center"].astype(np.float64) - origin) ** 2).sum(axis=-1)
     weight: Array = rows["probability"] / np.maximum(away2, rows["reach2"])
     return weight
 
 
 def chances(scene: Scene, origin: Array) -> Array:
-    """Of each lamp at a point: its cluster's and its part's by flux and nearness, then by flux."""
+    """Each lamp's chance at a point: its cluster and part by flux and nearness, then by flux."""
     rows = packed(scene)
     clusters, parts = rows["Cluster"][:MOST_NEAR], parts_of(rows)
     chance = weights(clusters, origin)[:, None] / weights(clusters, origin).sum()
@@ -64,7 +64,7 @@ def chances(scene: Scene, origin: Array) -> Array:
 
 
 def parts_of(rows: dict[str, Array]) -> Array:
-    """Of each cluster, (MOST_NEAR, PARTS) rows."""
+    """The parts of each cluster, (MOST_NEAR, PARTS) rows."""
     return rows["Cluster"][MOST_NEAR:].reshape(MOST_NEAR, PARTS)
 
 
@@ -218,7 +218,7 @@ def test_the_choice_stays_within_the_lamps_at_the_ends(call_glsl: CallGlsl) -> N
 def test_a_lamp_that_is_a_cluster_is_not_chosen_where_it_was_just_left(
     call_glsl: CallGlsl,
 ) -> None:
-    """One far from 99 others; among them it would be chosen in vain."""
+    """One lamp is far from 99 others; among them its choice would be wasted."""
     random = np.random.default_rng(1)
     places = [[50, 0, 0], *random.uniform(-1, 1, (99, 3))]
     scene = scene_of([sphere(place, 0.01, "lamp") for place in places], LAMPS)

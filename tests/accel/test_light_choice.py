@@ -75,7 +75,7 @@ CHOSEN = (
 
 
 def weights(scene: Scene, origin: Array) -> Array:
-    """Of each lamp at each point, (n, lamps) float64: flux over squared distance."""
+    """The weight of each lamp at each point, (n, lamps) float64: flux over squared distance."""
     lights = packed(scene)["Cluster"]
     away = lights["center"].astype(np.float64) - origin[:, None]
     nearness: Array = 1 / np.maximum((away**2).sum(axis=-1), lights["reach2"])

@@ -133,7 +133,7 @@ def test_balls_that_touch_the_horizon_are_seen_as_without_a_tree(call_glsl: Call
 
 
 def unpacked(nodes: Array) -> tuple[Array, Array, Array, Array]:
-    """Of each node its sphere, how many lie below it, and the corners of its box."""
+    """Each node's sphere, how many lie below it, and the corners of its box."""
     corner, cell = np.split(nodes["sphere"][0].view(np.float32).astype(float), [3])
     cells, last = nodes["box"][1:, :3], nodes["box"][1:, 3]
     return (
@@ -146,7 +146,7 @@ def unpacked(nodes: Array) -> tuple[Array, Array, Array, Array]:
 
 @pytest.mark.parametrize("far", [0.0, 1000.0])
 def test_boxes_are_wider_than_their_spheres_by_many_roundings(far: float) -> None:
-    """And not by many cells of the grid, of which there are 2^15 or more along its longest side."""
+    """They are not wider by many grid cells: its longest side has 2^15 cells or more."""
     scene = scene_of(balls(300, 5), MATERIALS, {"position": [0, far, 0], "look_at": [1, far, 0]})
     arrays = packed(scene)
     spheres = arrays["Sphere"]
@@ -182,7 +182,7 @@ def test_a_box_is_met_as_if_the_ray_began_up_to_many_roundings_alongside(
 
 
 def test_a_ray_is_as_uncertain_as_the_corner_of_the_grid(call_glsl: CallGlsl) -> None:
-    """From the origin itself, beside a box far from which the grid begins."""
+    """The ray starts at the origin, next to a box; the grid begins far away."""
     far, roundings = 1000.0, np.array([0, 32, 128])
     call = {
         "expression": "meets_box(slab_of(Ray(o, d, -1, false), grid), uvec3(edge << 16), FAR)",

@@ -41,7 +41,7 @@ TREES = {
 
 
 def tree_over(lower: Array, upper: Array) -> ShapeTree:
-    half = len(lower) // 2  # two kinds, of which the first may have no member
+    half = len(lower) // 2  # two kinds; the first may have no member
     quads = Boxes("Quad", 5, lower[:half], upper[:half])
     disks = Boxes("Disk", 9, lower[half:], upper[half:])
     grid = grid_of(lower.min(axis=0), upper.max(axis=0))
@@ -49,7 +49,7 @@ def tree_over(lower: Array, upper: Array) -> ShapeTree:
 
 
 def children(slot: Array) -> Iterator[tuple[int, Array, Array]]:
-    """Of each child its slot and the corners of its box on the grid."""
+    """Each child's slot and the corners of its box on the grid."""
     corner = (slot[:3] & (1 << GRID_BITS) - 1).astype(float)
     cell = 2.0 ** ((slot[:3] >> GRID_BITS).astype(float) - 127)
     bounds = slot[3:15].copy().view(np.uint8).reshape(3, 2, WIDTH)

@@ -1,4 +1,4 @@
-"""`glrt inspect --error` tells its reasons, what it could not reach or try, and what it refuses."""
+"""`glrt inspect --error` reports its reasons, failed or untried ways, and what it refuses."""
 
 import re
 from dataclasses import replace
@@ -156,7 +156,7 @@ def test_a_measurement_ends_with_its_time_and_reports_what_it_did_not_try(
 
 @pytest.mark.slow
 def test_auto_without_time_to_measure_renders_and_says_so(tmp_path: Path) -> None:
-    """A second goes by before the first picture that could tell anything."""
+    """A second goes by before the first picture that could decide anything."""
     picture = tmp_path / "a.png"
     line = ("render", "methods/glass", "-o", picture, "--width", "16", "--height", "16")
     done = glrt(*line, "--method", "auto", "--error", "0.9", "--time", "0.001")

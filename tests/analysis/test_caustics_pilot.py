@@ -145,7 +145,7 @@ def test_no_clock_decides(context: Context, monkeypatch: pytest.MonkeyPatch) -> 
 
 @pytest.mark.slow
 def test_blocks_of_64_are_judged_as_blocks_of_16(context: Context) -> None:
-    """The pilot renders 64 samples, of which a block of 64 has no error."""
+    """The pilot renders 64 samples; one block of 64 has no error."""
     settings = Settings(width=8, height=8)
     expected = particles_worth(load(BALL), settings, context)
     found = particles_worth(load(BALL), settings_for(settings, sampler="sobol64"), context)
@@ -164,7 +164,7 @@ def test_the_frame_of_the_pilot_is_the_whole_one() -> None:
 
 
 def test_a_pilot_is_a_small_share_of_a_render() -> None:
-    """Of the samples of its four pictures, 4 / LEAST at most; a shorter one has a smaller one."""
+    """Its four pictures take at most 4 / LEAST of the samples; short renders have small pilots."""
     scene = load("cornell")  # 512 x 512 pixels, 256 samples
     sizes = {256: caustics.LONG, 128: caustics.LONG, 64: caustics.SHORT, 32: caustics.SHORT, 31: 0}
     for samples, pixels in sizes.items():

@@ -1,4 +1,4 @@
-"""`glrt chart`: measured rounds, and the files that show and tell what they say."""
+"""`glrt chart`: measured rounds, and the files that show and report their results."""
 
 import csv
 import json

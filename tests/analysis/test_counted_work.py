@@ -188,7 +188,7 @@ def test_processes_at_different_load_write_the_same_bytes(tmp_path: Path) -> Non
             process.wait()
 
 
-# --- what recipes are told -----------------------------------------------------------------
+# --- decisions in recipes ------------------------------------------------------------------
 
 
 def choice_by(

@@ -1,4 +1,4 @@
-"""What a chart says of its points: slopes, biases, times to an error, the Pareto front."""
+"""A chart's figures from its points: slopes, biases, times to an error, the Pareto front."""
 
 import math
 from typing import Any
@@ -44,7 +44,10 @@ def test_noise_alone_falls_with_the_square_root() -> None:
 
 
 def test_intervals_of_slopes_hold_the_truth_where_errors_are_skewed() -> None:
-    """500 fits to 5 runs with rare large errors: 95 % +- 1 % hold -0.5, and 4 deviations beside."""
+    """500 fits to 5 runs with rare large errors: 95 % +- 1 % hold -0.5.
+
+    The test allows 4 standard deviations.
+    """
     draw = np.random.default_rng(1)
 
     def look(samples: int) -> Look:
@@ -117,7 +120,10 @@ def test_the_front_is_what_nothing_beats() -> None:
 
 
 def test_intervals_hold_the_truth_nineteen_times_of_twenty() -> None:
-    """2000 intervals of 5 normal numbers: 95 % +- 0.5 % hold the mean, and 4 deviations beside."""
+    """2000 intervals of 5 normal numbers: 95 % +- 0.5 % hold the mean.
+
+    The test allows 4 standard deviations.
+    """
     draw = np.random.default_rng(7)
     held = [
         interval.low <= 3.0 <= interval.high

@@ -62,7 +62,7 @@ def test_half_as_many_samples_must_suffice(context: Context) -> None:
 
 @pytest.mark.slow
 def test_what_longer_paths_leave_out_counts(context: Context) -> None:
-    """A bias beside which the filter's error has no room."""
+    """The bias leaves no room for the filter's error."""
     found = denoised_choice(ROOM, chosen(8.0), 0.06, context)
     assert found
     bias = 0.95 * 0.06  # what is left for noise: 1.9 %, or 8,200 samples of a plain picture

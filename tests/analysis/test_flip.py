@@ -1,4 +1,4 @@
-"""FLIP beside the error of the contract: asked of what is seen, and only where it is installed."""
+"""FLIP next to the error of the contract: of the shown picture, and only where installed."""
 
 import csv
 import json
@@ -42,7 +42,7 @@ def no_evaluator(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def measured(context: Context, folder: Path, rounds: int = 2) -> Experiment:
-    """Of two methods."""
+    """An experiment with two methods."""
 
     def two(scene: Scene, settings: Settings) -> list[Variant]:
         return variants_of(scene, settings, ["mis", "whitted"], leads=False)
@@ -116,7 +116,7 @@ def test_rounds_that_were_not_asked_are_measured_again_once_it_is_installed(
 
 
 def test_the_package_itself_knows_same_from_different() -> None:
-    """0 for one picture twice, and little less than 1 for black beside white."""
+    """0 for one picture twice, and little less than 1 for black against white."""
     pytest.importorskip("flip_evaluator")
     black, white = np.zeros((32, 32, 3)), np.full((32, 32, 3), 1e6)
     assert flip.flip(white, white) == 0

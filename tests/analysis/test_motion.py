@@ -186,7 +186,7 @@ def test_live_probes_follow_a_light_step_frame_by_frame(context: Context) -> Non
 
 @pytest.mark.slow
 def test_tracks_of_probes_count_their_rays(context: Context) -> None:
-    """Live ones take an update a frame, and are placed anew in an orbit alone."""
+    """Live probes take an update a frame, and are placed again only in an orbit."""
     scene = load("methods/diffuse")
     settings = settings_for(scene.render, width=16, height=16, probes=2)
     found = tracks_of(

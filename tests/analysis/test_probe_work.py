@@ -1,4 +1,4 @@
-"""What probes cost is counted: their rays, for the whole picture, and for each block of samples."""
+"""The work of probes is counted: their rays, for the picture and for each block of samples."""
 
 from dataclasses import replace
 from typing import Any
@@ -49,7 +49,7 @@ def test_sets_are_counted_by_blocks() -> None:
 
 
 def test_work_of_probes_is_shared_by_pixels_and_blocks() -> None:
-    """Of 100 and of 400 samples, in one pixel and in 1,024."""
+    """The work of 100 and of 400 samples, in one pixel and in 1,024."""
     plain = of_bias(0.0)
     settings = settings_for(plain.settings, sampler="sobol", width=32, height=32)
     many = replace(plain, settings=settings, probes=OfProbes(1024.0, 3.0, 2048.0, 5.0))
@@ -75,7 +75,7 @@ def test_probes_are_tried_where_that_is_asked_for(context: Context) -> None:
 
 
 def test_what_chooses_by_itself_leaves_probes_out(context: Context) -> None:
-    """An estimated error tells nothing of what they blur."""
+    """An estimated error does not include what probes blur."""
     assert not any(METHODS[name].has_probes for name in WITHOUT_PROBES)
     found = verdict_on(load("methods/open"), 0.3, context).candidates
     assert not any(METHODS[each.settings.method].has_probes for each in found)

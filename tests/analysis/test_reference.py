@@ -1,4 +1,4 @@
-"""What charts judge by: two halves without bias, closed forms, and a cache that is only a cache."""
+"""References of charts: two halves without bias, closed forms, and a cache that is only a cache."""
 
 import itertools
 import math
@@ -186,7 +186,7 @@ def noise_of(variant: Variant, context: Context, seed: int, sampler: str) -> Any
 
 
 def correlations(a: Any, b: Any, block: int) -> tuple[float, float]:
-    """Of the means of blocks of pixels that are lit by chance, and its deviation without any."""
+    """The correlation of means of blocks lit by chance, and its deviation if there is none."""
     side = len(a) // block
     means = [x.reshape(side, block, side, block).mean(axis=(1, 3)).ravel() for x in (a, b)]
     lit = means[0] != 0

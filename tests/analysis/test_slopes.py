@@ -18,7 +18,7 @@ from glrt.settings import Settings
 from tests.support.builders import box_of_quads, lamp, quad, scene_of
 from tests.support.renders import rendered
 
-NOISY = "5 bounces", "gather", "resampled"  # their noise is not small beside their bias
+NOISY = "5 bounces", "gather", "resampled"  # their noise is not small against their bias
 
 
 @pytest.fixture
@@ -50,7 +50,7 @@ def measure_alone(
 
 
 def slopes_of(curves: tuple[Curve, ...]) -> list[Interval]:
-    """Of the unbiased variants with independent numbers, not denoised, over three decades."""
+    """The slopes of unbiased variants, independent numbers, not denoised, over three decades."""
     others = "sobol", "denoised"
     plain = [c for c in curves if not c.is_biased and not any(o in c.name for o in others)]
     assert {c.points[-1].samples for c in plain} == {1024}
@@ -60,7 +60,7 @@ def slopes_of(curves: tuple[Curve, ...]) -> list[Interval]:
 
 
 def assert_halves(slopes: list[Interval]) -> None:
-    """Within 0.03 of -0.5, and within their intervals, of which one in twenty misses by chance."""
+    """All are within 0.03 of -0.5. One interval in twenty misses -0.5 by chance."""
     assert all(abs(slope.value + 0.5) <= 0.03 for slope in slopes), slopes
     missed = [slope for slope in slopes if not slope.low <= -0.5 <= slope.high]
     assert len(missed) <= 1, missed

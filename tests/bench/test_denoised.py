@@ -1,4 +1,4 @@
-"""What a denoiser gains: the counts, and the gate in small (slow)."""
+"""The gain of a denoiser: the counts, and the gate in small (slow)."""
 
 from pathlib import Path
 
@@ -16,7 +16,7 @@ NAN = np.full((8, 8, 3), np.nan, np.float32)
 
 
 def picture(plain: float, shown: float, told: float) -> Image:
-    """Of a truth of 1: what is shown, and what is told of its error."""
+    """A picture of a truth of 1: its plain and shown values, and the reported error."""
     radiance, other = (np.full((8, 8, 3), value, np.float32) for value in (plain, shown))
     return Image(radiance, NAN, 64, denoising=Denoised(other, other, told, told))
 

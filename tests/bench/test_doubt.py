@@ -18,7 +18,7 @@ from bench.doubt import (
 from bench.fooling_scenes import KINDS, fooling_scene
 from tests.support.noisy_images import flat
 
-# The last one is overestimated: a caution is not in vain.
+# The last one is overestimated: a caution is justified.
 OUTCOMES = ((9.0, True), (3.0, False), (1.5, False), (1.0, True), (1.1, False), (0.5, True))
 
 

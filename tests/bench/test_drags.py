@@ -1,4 +1,4 @@
-"""The drags of the bench tell how many pictures came, and how long one stayed."""
+"""The drags of the bench report how many pictures came, and how long one stayed."""
 
 from functools import partial
 

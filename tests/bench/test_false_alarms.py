@@ -39,7 +39,7 @@ def test_interval_of_a_share_is_wilsons() -> None:
 def test_a_table_has_a_row_for_each_scene_and_mix(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Of two pairs each, 16 x 16 pixels, and references of 256 samples for 4,096."""
+    """Each has two pairs, 16 x 16 pixels, and references of 256 samples instead of 4,096."""
     monkeypatch.setattr(false_alarms, "SIZE", 16)
     monkeypatch.setattr(false_alarms, "LARGE", 256)
     assert main(["sobol", "--pairs", "2"]) == 0

@@ -1,4 +1,4 @@
-"""Peers answer over pipes; what goes wrong with them is told, and hurts nobody else."""
+"""Peers answer over pipes; a peer's fault is reported, and hurts nobody else."""
 
 import os
 import sys
@@ -58,7 +58,7 @@ def painter() -> Iterator[Peer]:
 def test_folders_of_killed_processes_are_gone_after_the_next_start(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Those of peers that are at work stay, and so do all others."""
+    """The folders of peers at work stay, and so do all other folders."""
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
     for name, days in (("glrt-peer-old", 1.1), ("glrt-peer-new", 0.9), ("other-old", 1.1)):
         (tmp_path / name).mkdir()

@@ -11,7 +11,7 @@ ROUNDS = 30
 
 
 def times(seed: int, factor: float = 1.0, noise: float = 0.02) -> tuple[list[float], list[float]]:
-    """Of two programs in rounds of unlike speed, one of which takes `factor` times as long."""
+    """Times of two programs in rounds of unlike speed; the first takes `factor` times as long."""
     rng = np.random.default_rng(seed)
 
     def noisy() -> NDArray[np.float64]:
@@ -29,7 +29,7 @@ def test_the_rank_is_the_one_of_tables() -> None:
 
 
 def test_equal_programs_have_an_interval_around_one() -> None:
-    """Of one scene in 95 % of cases or more: fewer than 170 of 200 do by chance hardly."""
+    """One scene's does in 95 % of cases or more: fewer than 170 of 200 are hardly chance."""
     found = [ratio_of(*times(seed)) for seed in range(200)]
     assert sum(ratio.low <= 1 <= ratio.high for ratio in found) >= 170
     whole = [ratio_over([times(7 * seed + n) for n in range(6)]) for seed in range(30)]

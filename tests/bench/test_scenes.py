@@ -74,7 +74,7 @@ def size(shape: Shape) -> float:
 
 
 def height_over(plane: Plane, places: Floats) -> float:
-    """Of the lowest of some points, on the side that the plane faces."""
+    """The height of the lowest of some points, on the side that the plane faces."""
     normal = np.array(plane.normal) / np.linalg.norm(plane.normal)
     return float(((places - plane.point) @ normal).min())
 

@@ -66,7 +66,7 @@ def test_the_lead_in_time_is_that_of_a_contest() -> None:
 
 
 def test_independent_samples_have_the_slope_and_spread_ones_do_not() -> None:
-    """Of 40 scenes at 99 %, a dozen without it are hardly chance."""
+    """Among 40 scenes at 99 %, a dozen without it are hardly chance."""
     slopes = [slope_of(runs(1, 16, 1e6, n), runs(1, 64, 1e6, n + 99), LEVEL) for n in range(40)]
     assert sum(not slope.is_half for slope in slopes) < 12
     assert slopes[0].value == pytest.approx(-0.5, abs=0.03)

@@ -1,4 +1,4 @@
-"""The scripted window tells what was measured."""
+"""The scripted window reports what was measured."""
 
 from bench.window_tour import Frame, Wait, rest_text, told
 

@@ -109,7 +109,7 @@ def test_what_is_given_is_kept(folder: Path) -> None:
     ],
 )
 def test_the_pilot_is_the_same_for(words: tuple[str, ...], folder: Path) -> None:
-    """Every choice has its own gain, which the message tells: it is that of the plain render."""
+    """For all of these options the message reports the gain of the plain render."""
     told: list[caustics.Finding] = []
 
     def listened(found: caustics.Finding) -> str:
@@ -204,7 +204,7 @@ def test_a_picture_without_the_key_has_no_particles(folder: Path, no_pilot: None
     assert chosen(rendered("off.exr"))[0] == "off"
 
 
-# --- what it tells -------------------------------------------------------------------------------
+# --- what it reports -----------------------------------------------------------------------------
 
 
 @pytest.mark.slow

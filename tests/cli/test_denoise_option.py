@@ -1,4 +1,4 @@
-"""`glrt render --denoise`: what is told, what is written, what is refused."""
+"""`glrt render --denoise`: what is reported, what is written, what is refused."""
 
 import json
 from pathlib import Path

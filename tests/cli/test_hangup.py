@@ -26,7 +26,7 @@ OWN_TERMINAL = (
 
 @pytest.fixture
 def as_in_a_terminal() -> Iterator[None]:
-    """Under `nohup`, processes ignore SIGHUP, and so do those that they start."""
+    """Under `nohup`, processes ignore SIGHUP, and so do processes that they start."""
     before = signal.signal(signal.SIGHUP, signal.SIG_DFL)
     yield
     signal.signal(signal.SIGHUP, before)
@@ -88,7 +88,7 @@ SCRIPT = "import sys; from glrt.cli.main import main; sys.exit(main())"
 
 @pytest.mark.parametrize("count", [1, 2, 3, 5, 9, 16, 30])
 def test_no_traceback_from_the_first_import_on(count: int, tmp_path: Path) -> None:
-    """By number of imports, not by time. What comes before is Python's own start."""
+    """The test counts imports, not time. Before the first one is only Python's own start."""
     (tmp_path / "sitecustomize.py").write_text(INTERRUPTS.format(count=count))
     path = os.pathsep.join([str(tmp_path), os.environ.get("PYTHONPATH", "")])
     how = ["-m", "glrt"] if count % 2 else ["-c", SCRIPT]

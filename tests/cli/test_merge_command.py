@@ -34,7 +34,7 @@ def three(folder: Path) -> list[str]:
 
 
 def said(capsys: pytest.CaptureFixture[str]) -> str:
-    """What the command said, in one paragraph, on stderr alone."""
+    """The command's message: one paragraph, on stderr alone."""
     told = capsys.readouterr()
     assert told.out == ""
     assert told.err.startswith("glrt: ")

@@ -74,7 +74,7 @@ def test_a_picture_may_take_the_place_of_the_picture_that_is_its_scene(tmp_path:
     assert Image.load(picture).samples == 3
 
 
-# --- what is told ----------------------------------------------------------------------------
+# --- what is reported ------------------------------------------------------------------------
 
 
 def test_control_characters_of_a_name_are_escaped(

@@ -1,4 +1,4 @@
-"""`glrt paths`: what it tells, stores and traces again, and what it refuses."""
+"""`glrt paths`: what it reports, stores and traces again, and what it refuses."""
 
 import json
 import re
@@ -26,7 +26,7 @@ SMALL = ["--width", "16", "--height", "16", "--samples", "20", "--bounces", "5"]
 
 @pytest.fixture(scope="module")
 def stored(context: Context, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Two paths of a pixel of the floor beside the glass ball."""
+    """Two paths of a pixel of the floor next to the glass ball."""
     file = tmp_path_factory.mktemp("paths") / "stored.json"
     more = ["--brightest", "2", "-o", str(file), "--context", context.route]
     assert main(["paths", "cornell", *PIXEL, *SMALL, *more]) == 0

@@ -6,7 +6,7 @@ import sys
 
 
 def told(code: str) -> str:
-    """What a Python process prints."""
+    """The output of a Python process."""
     return subprocess.run(
         [sys.executable, "-c", code], capture_output=True, text=True, check=True
     ).stdout.strip()

@@ -1,4 +1,4 @@
-"""Scenes to render: those that come with glrt, one on standard input, and what `inspect` says."""
+"""Scenes to render: scenes of glrt, one on standard input, and what `inspect` says."""
 
 import io
 import json

@@ -1,4 +1,4 @@
-"""What chance can do to a difference, against exact numbers where there are any."""
+"""The effect of chance on a difference, against exact numbers where there are any."""
 
 import math
 from itertools import combinations

@@ -1,4 +1,4 @@
-"""Pixels that met rare light are told from noisy places, and from what every method sees."""
+"""Pixels that met rare light are distinguished from noise, and from what every method sees."""
 
 import numpy as np
 

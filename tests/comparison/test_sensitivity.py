@@ -1,4 +1,4 @@
-"""What `compare` says that it would have found, it finds.
+"""`compare` finds the differences that it claims it would have found.
 
 Seeds are fixed; every statistical test fails by chance once in 10,000 seeds at most.
 """

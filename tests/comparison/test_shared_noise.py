@@ -12,7 +12,7 @@ from tests.support.noisy_images import noisy
 
 @pytest.mark.parametrize("place", ["image", "reference"])
 def test_pictures_whose_pixels_share_their_noise_are_refused(place: str) -> None:
-    """Of probes: pixels that are taken for independent would be called different."""
+    """Probes share noise: pixels taken for independent would be called different."""
     pair = {"image": noisy("smooth", 64, 1), "reference": noisy("smooth", 64, 2)}
     pair[place] = replace(pair[place], recipe=recipe(method="ddgi"))
     with pytest.raises(UsageError, match=f"the {place} was rendered by ddgi, whose pixels share"):

@@ -1,4 +1,4 @@
-"""`compare` tells noise from a difference, most of all where noise is rare and large.
+"""`compare` distinguishes noise from a difference, above all where noise is rare and large.
 
 Seeds are fixed; every statistical test fails by chance once in 10,000 seeds at most.
 """

@@ -131,7 +131,7 @@ def other_seed(context: Context, scene: Scene, settings: Settings) -> Array:
 
 
 def is_the_same_except_for_rounding(one: Record, other: Record, independent: Array) -> bool:
-    """What two drivers can be held to: few paths take another branch, the noise is the same."""
+    """The agreement two drivers must reach: few paths take another branch, the same noise."""
     few = flipped(one[ONE][0], other[ONE][0]) <= 0.0005
     return few and relative_rms(one[MANY][0], other[MANY][0], independent) <= 0.01
 

@@ -1,5 +1,5 @@
-"""What the thesis saw on macOS, a darker picture, harder shadows and green dots, is not here; and
-each suspicion, planted into the WGSL version, shows what it can explain of that, and what not.
+"""The symptoms of the thesis on macOS do not appear here: a darker picture, harder shadows and
+green dots. Each suspicion, planted into the WGSL version, shows what it can explain, and what not.
 """
 
 import pytest

@@ -47,13 +47,13 @@ SAMPLES = 256
 
 @pytest.fixture(scope="module")
 def their_solids(mitsuba: Peer) -> Image:
-    """What Mitsuba makes of `solids`."""
+    """Mitsuba's picture of `solids`."""
     return theirs(mitsuba, solids())
 
 
 @pytest.fixture(scope="module")
 def their_picture(mitsuba: Peer) -> Image:
-    """What Mitsuba makes of `everything`."""
+    """Mitsuba's picture of `everything`."""
     return theirs(mitsuba, everything())
 
 

@@ -1,4 +1,4 @@
-"""Which faces coincide, and which balls are seen from inside: what Mitsuba needs to be told."""
+"""Which faces coincide, and which balls are seen from inside: input that Mitsuba needs."""
 
 from contextlib import nullcontext
 from typing import Any

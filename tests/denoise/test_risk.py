@@ -60,7 +60,7 @@ def test_without_a_filter_it_is_the_variance_of_the_plain_picture(counts: tuple[
 def test_the_noise_that_is_left_is_the_variance_of_what_is_shown(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """Of a mean over 3 x 3 pixels, whose halves have the same bias, and are not blended back."""
+    """The filter is a mean over 3 x 3 pixels; its halves have one bias, and are not blended."""
     filters = {"box": lambda half: Filtered(np.asarray(box(half), np.float32), ONE)}
     monkeypatch.setattr(denoising, "FILTERS", filters)
     monkeypatch.setattr(denoising, "blended", lambda half, found: found.radiance)
@@ -145,7 +145,7 @@ def test_what_is_much_too_bright_does_not_divide_its_own_error() -> None:
 
 
 def test_the_upper_end_is_above_the_truth_in_95_of_100_cases() -> None:
-    """Of squares that vary by chance: 1,000 pictures of 400 pixels, each channel alike."""
+    """The squares vary by chance: 1,000 pictures of 400 pixels, each channel alike."""
     rng, radiance = np.random.default_rng(11), np.ones((20, 20, 3), np.float32)
     squares = rng.normal(0.101, 0.5, size=(1000, 20, 20, 1)) * np.ones(3)
     bands = [relative_error(s, radiance) for s in squares]

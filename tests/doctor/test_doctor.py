@@ -1,4 +1,4 @@
-"""The doctor: what works is told apart from what does not, and no driver takes it along."""
+"""The doctor separates what works from what does not, and no driver's crash ends it."""
 
 import json
 import sys
@@ -22,14 +22,14 @@ RIGHT = '{"step": "fragment", "furnace": 0.0, "seconds": 0.2}'
 
 
 def dying(lines: list[str], last: str) -> Examination:
-    """What is found of a driver that shows these lines, and then does this."""
+    """The examination of a driver that shows these lines, and then does this."""
     code = f"print({chr(10).join(lines)!r}, flush=True)\nimport os, sys, time\n{last}"
     return examine("egl", command=[sys.executable, "-c", code])
 
 
 @pytest.fixture(scope="module")
 def examined() -> list[Examination]:
-    """What the doctor finds on this machine, without a display."""
+    """The doctor's findings on this machine, without a display."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("DISPLAY", "")
         return doctor.examine_all()

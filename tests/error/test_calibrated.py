@@ -106,7 +106,7 @@ def test_one_sample_knows_nothing_of_its_error(context: Context) -> None:
 
 
 def test_error_halves_with_four_times_the_samples(context: Context) -> None:
-    """Of the relative error of the whole picture, which the variance of 576 pixels makes up."""
+    """It is the relative error of the whole picture, from the variance of 576 pixels."""
     few, many = (
         rendered(everything(), context, samples, width=24, height=24).error
         for samples in (128, 512)

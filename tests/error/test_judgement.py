@@ -1,4 +1,4 @@
-"""A picture is judged by what its scene tells of lamps in view.
+"""A picture is judged by the lamps in view, as its scene describes them.
 
 The pictures are made by hand; tests/error/test_reliability.py has rendered ones.
 """
@@ -28,7 +28,7 @@ def even(size: int = SIZE) -> tuple[Pixels, Pixels]:
 def with_rim(shown: float, error: float, beside: float = SKY) -> tuple[Pixels, Pixels]:
     """The same with a pixel in the middle that shows so much of a lamp, with so large an error.
 
-    One beside it has so much light for certain.
+    The pixel next to it has the light `beside` for certain.
     """
     radiance, stderr = even()
     middle = SIZE // 2

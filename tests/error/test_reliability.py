@@ -63,7 +63,7 @@ def test_rare_large_hits_are_in_the_estimate(samples: int) -> None:
 
 
 def test_one_pixel_that_one_sample_lit_is_enough() -> None:
-    """Beside one that is nearly half as bright; many samples are believed."""
+    """It is next to a pixel nearly half as bright. A pixel that many samples lit is believed."""
     assert judged(planted()) is False
     assert judged(planted((40.0, 40.0), beside=19.0)) is True
     assert judged(planted((40.0, 4.0), beside=19.0)) is False

@@ -1,4 +1,4 @@
-"""What pixels show of lamps that they see in part: closed forms, and the renderer's own samples."""
+"""The light of lamps that pixels see in part: closed forms, and the renderer's own samples."""
 
 import math
 from typing import Any
@@ -40,7 +40,7 @@ def scene(*objects: dict[str, Any], lamp: dict[str, Any] | None = None, **camera
 
 
 def found(made: Scene, size: int = SIZE, **settings: Any) -> Seen:
-    """In a picture of the sky alone, of which nothing is sure."""
+    """The lamps found in a picture of the sky alone, where no pixel is sure."""
     wanted = Settings(width=size, height=size, **settings)
     picture = np.full((*wanted.size[::-1], 3), SKY, np.float32)
     return seen_lamps(made, wanted, picture, picture)

@@ -1,4 +1,4 @@
-"""What holds for every scene file, however wrong: read whole, or refused with one paragraph."""
+"""Checks of every scene file, however wrong: it is read whole, or refused with one paragraph."""
 
 from pathlib import Path
 

@@ -17,7 +17,7 @@ Check = Callable[[Any], str]
 
 
 def kinds(folder: Path, context: Context) -> dict[str, tuple[st.SearchStrategy[Any], Check]]:
-    """What is made by chance, and what is asked of it; a check tells what became of the input."""
+    """Kinds of random input, each with its check; a check returns what became of the input."""
     wholes = {path.suffix: path for path in pictures.whole_pictures(folder)}
     exr, png = wholes[".exr"], wholes[".png"]
 

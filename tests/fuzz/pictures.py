@@ -18,7 +18,7 @@ NAME = Path("chance.png")
 
 
 def whole_recipe() -> Recipe:
-    """What a picture of glrt's own carries."""
+    """The recipe in a picture of glrt's own."""
     settings = settings_for(CORNELL.render, width=4, height=4)
     return Recipe(scene=CORNELL, settings=settings, samples=2, version="0", renderer="none")
 

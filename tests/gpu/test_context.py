@@ -14,7 +14,7 @@ Devices = list[str]  # of EGL: what renders, or CLOSED
 
 
 def offered(monkeypatch: pytest.MonkeyPatch, devices: Devices) -> list[str]:
-    """Let EGL offer these and no other route anything; the list tells what is given back."""
+    """Let EGL offer these and no other route anything; the list holds what is given back."""
     released: list[str] = []
 
     def create(route: str, device: int, _required: int) -> Any:

@@ -1,4 +1,4 @@
-"""What the driver is tried for, that failures would show, and what the scheduler makes of it."""
+"""The checks of the driver, whether they would show failures, and the scheduler's reaction."""
 
 from dataclasses import asdict, dataclass, replace
 

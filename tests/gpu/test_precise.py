@@ -11,7 +11,7 @@ from tests.support.kernel_text import written_for
 
 
 def function_bodies(glsl: str) -> list[str]:
-    """What stands between the braces of each function."""
+    """The text between the braces of each function."""
     text = re.sub(r"//[^\n]*|/\*.*?\*/", "", glsl, flags=re.DOTALL)
     bodies = []
     for start in re.finditer(r"^\w+ \w+\([^;{}]*\)\s*\{", text, re.MULTILINE):
@@ -33,7 +33,7 @@ def imprecise(glsl: str) -> list[str]:
 
 
 def computed_returns(glsl: str) -> list[str]:
-    """What functions of floats return that is a sum or product, and so no precise variable."""
+    """Sums or products that functions of floats return: they are no precise variables."""
     head = r"^(?:float|vec\d|mat\d) \w+\([^;{}]*\)\s*(\{[^\n]*\}$|\{.*?^\})"
     text = re.sub(r"[ ]*//[^\n]*", "", glsl)
     bodies = [match[1] for match in re.finditer(head, text, re.MULTILINE | re.DOTALL)]

@@ -46,7 +46,7 @@ def part(context: Context, scene: Scene, number: int, samples: int, **more: Any)
 
 
 def assert_is(half: Half, image: Image) -> None:
-    """Means to the digits of float32; variances to those that are left of a difference."""
+    """Means agree to the digits of float32, variances to the digits left by a difference."""
     np.testing.assert_allclose(half.radiance, image.radiance, rtol=2e-5, atol=1e-6)
     np.testing.assert_allclose(half.variance, image.stderr**2, rtol=1e-3, atol=1e-6)
     for guide, name in zip(half.guides, ("albedo", "normal"), strict=True):

@@ -8,7 +8,7 @@ PICTURES, SIZE = 4000, (3, 2)
 
 
 def sums_of(seen: Floats) -> LayerSums:
-    """Of observations (N, H, W, 3), of four samples each, by turns to either half."""
+    """The sums of observations (N, H, W, 3) of four samples each, by turns in either half."""
     halves = seen[::2], seen[1::2]
     counts = [np.full((*SIZE, 1), 4.0 * len(half)) for half in halves]
     return LayerSums(np.array([half.mean(axis=0) for half in halves]), np.array(counts))
@@ -28,7 +28,7 @@ def test_the_rest_is_what_its_own_observations_make() -> None:
 
 
 def test_the_variance_is_right_on_average_for_halves_of_any_size() -> None:
-    """Of 3 observations, two of them in one half: a third; 5 standard errors, 6e-7."""
+    """It is a third for 3 observations, two of them in one half; 5 standard errors, 6e-7."""
     rng = np.random.default_rng(1)
     for count in (2, 3, 6):
         found = np.array([sums_of(observations(rng, count)).variance for _ in range(PICTURES)])

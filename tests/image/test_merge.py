@@ -124,7 +124,7 @@ def test_bits_do_not_depend_on_the_order(count: int, tmp_path: Path) -> None:
 def test_an_incomplete_picture_has_the_error_of_the_samples_that_are_there(
     numbers: tuple[int, ...],
 ) -> None:
-    """Of nine observations and five samples, in four parts of two, two, three and three."""
+    """Nine observations and five samples are in four parts of two, two, three and three."""
     ranges = {1: slice(0, 32), 2: slice(32, 80), 3: slice(80, 112), 4: slice(112, 149)}
     found = merge(parts(4, numbers), incomplete=True)
     held = np.concatenate([RENDER.samples[ranges[n]] for n in numbers])

@@ -1,4 +1,4 @@
-"""What cannot be merged is refused, with what is wrong and what to do."""
+"""Pictures that cannot be merged are refused, with what is wrong and what to do."""
 
 import re
 from collections.abc import Callable, Sequence
@@ -42,7 +42,7 @@ def with_another_scene(image: Image) -> Image:
 
 
 def of_settings(**settings: Any) -> Callable[[], list[Image]]:
-    """Three parts of which the second has other settings."""
+    """Three parts: the second has other settings."""
 
     def made() -> list[Image]:
         first, second, third = parts(3)
@@ -52,7 +52,7 @@ def of_settings(**settings: Any) -> Callable[[], list[Image]]:
 
 
 def edited(edit: Callable[[Image], Image]) -> Callable[[], list[Image]]:
-    """Three parts of which the second is edited."""
+    """Three parts: the second is edited."""
     return lambda: [image if n != 1 else edit(image) for n, image in enumerate(parts(3))]
 
 
@@ -112,7 +112,7 @@ REFUSED: dict[str, tuple[Callable[[], list[Image]], str]] = {
 
 
 def refusal(images: list[Image], incomplete: bool = False) -> str:
-    """What is said of pictures that cannot be merged; nothing of those that can."""
+    """The message that refuses to merge pictures; empty if they can be merged."""
     try:
         merge(images, incomplete)
     except UsageError as error:
@@ -122,7 +122,7 @@ def refusal(images: list[Image], incomplete: bool = False) -> str:
 
 @pytest.mark.parametrize("name", REFUSED)
 def test_what_cannot_be_merged_is_refused_by_its_reason(name: str) -> None:
-    """Of several parts, those that differ are named; missing ones alone may be forgiven."""
+    """The message names the parts that differ; only missing parts may be forgiven."""
     made, said = REFUSED[name]
     assert re.search(said, refusal(made()))
     if "missing" in name:

@@ -1,4 +1,4 @@
-"""Moments of disjoint samples, put together: those that numpy finds of all samples at once."""
+"""Merged moments of disjoint samples are the moments that numpy finds of all samples at once."""
 
 from collections.abc import Sequence
 from itertools import pairwise
@@ -106,7 +106,7 @@ def test_a_small_spread_about_a_large_mean_keeps_its_digits(count: int) -> None:
 
 @pytest.mark.parametrize("count", [2, 7, 17])
 def test_a_small_spread_outlives_the_rounding_of_files(count: int) -> None:
-    """Of means in float32, 1/16 apart at 1e6, where observations spread by 1/4."""
+    """Means in float32 are 1/16 apart at 1e6, where observations spread by 1/4."""
     samples = 1e6 + np.random.default_rng(5).normal(size=(34 * BLOCK, 3, 4, 3))
     rounded = [
         {"film": Moments(*(x.astype(np.float32).astype(float) for x in moments_of(part)))}

@@ -81,7 +81,7 @@ def test_a_picture_goes_on_in_place_of_what_was_there(context: Context) -> None:
 
 @pytest.mark.parametrize("samples", [1, 16, 21, 40])
 def test_any_film_comes_back_from_its_channels(samples: int) -> None:
-    """Dropped samples, blocks of which all were dropped, and errors of every size."""
+    """Some samples are dropped, some blocks wholly, and errors have every size."""
     random = np.random.default_rng(3)
     size, block = (9, 8), 16
     dropped = random.integers(0, min(samples, 3), size).astype(np.float32)

@@ -40,7 +40,7 @@ def _radiances(
 
 
 def _leaving(mi: Any, x: float, y: float, z: float) -> Any:
-    """What a ray sees that leaves the scene."""
+    """The interaction of a ray that leaves the scene."""
     found = mi.SurfaceInteraction3f()
     found.wi = -mi.Vector3f(*_z_up(x, y, z))
     return found

@@ -45,7 +45,7 @@ Words = dict[str, Any]
 
 
 class Liberties(NamedTuple):
-    """What makes Mitsuba faster, and may hardly show."""
+    """Changes that make Mitsuba faster, and may hardly show."""
 
     one_sided: bool = False  # quads light their front alone
     finite: bool = False  # planes end far away, before the horizon
@@ -141,7 +141,7 @@ def _face(mi: Any, surface: Words, item: Quad | Disk, at: Near, lift: float) -> 
 
 
 def _lifts(is_lamp: bool, liberties: Liberties) -> tuple[float, ...]:
-    """Of the faces of a flat shape: a lamp has two, which face away from each other."""
+    """The offsets of a flat shape's faces: a lamp has two, which face away from each other."""
     if not is_lamp:
         return (0.0,)
     return (GAP / 2,) if liberties.one_sided else (GAP / 2, -GAP / 2)
@@ -260,7 +260,7 @@ def _glass(name: str, material: Dielectric) -> Words:
 
 
 def _metallic(name: str, material: Principled) -> Words:
-    """The case in which Disney's surface is glTF's, but for shadowing at high roughness."""
+    """The case in which Disney's surface is glTF's, except shadowing at high roughness."""
     if material.metallic < 1 or material.clearcoat or material.alpha < 1:
         raise SceneError(f"material '{name}': Mitsuba has another principled surface.")
     color = _color(material.color)

@@ -18,7 +18,7 @@ from tests.mitsuba.convert import BLOCK, Liberties, convert
 LLVM = "libLLVM.so.19.1"  # with 15 and 16, Mitsuba ends the process; 14 it refuses
 LLVM_PACKAGE = "libllvm19"
 
-BATCHES = 64  # at most: their spread tells the error
+BATCHES = 64  # at most: their spread gives the error
 EXACT = Liberties()
 MOST_PATHS = 1 << 22  # at a time, which bounds memory; 7 % slower with a quarter of them
 
@@ -52,7 +52,7 @@ def _has_llvm() -> bool:
 
 
 def name_of(mi: Any) -> str:
-    """What a recipe calls the renderer."""
+    """The renderer's name in a recipe."""
     return f"Mitsuba {mi.__version__}, {mi.variant()}"
 
 

@@ -1,5 +1,5 @@
-"""What of a scene's surfaces Mitsuba needs to be told: which of them can be seen from inside, and
-which coincide, so that it would show one or the other at random."""
+"""Facts about a scene's surfaces that Mitsuba needs as input: the surfaces seen from inside, and
+the surfaces that coincide, so that it would show one or the other at random."""
 
 from typing import NamedTuple
 

@@ -89,5 +89,5 @@ def length(vector: ArrayLike) -> float:
 
 
 def unit(vector: ArrayLike) -> Vector:
-    """Of length 1."""
+    """The vectors scaled to length 1."""
     return np.asarray(vector, float) / length(vector)

@@ -13,7 +13,7 @@ import numpy as np
 from glrt.scene.materials.facets import STEPS, FacetLoss
 
 NAME = "glrt_rough_glass"
-EVEN = 0.2  # of samples, those that are spread by the cosine over both sides
+EVEN = 0.2  # the share of samples that are spread by the cosine over both sides
 
 
 def words(alpha: float, ior: float, loss: FacetLoss | None) -> dict[str, Any]:

@@ -13,8 +13,8 @@ from tests.support.gltf_files import png
 from tests.support.meshes import blob, icosphere, mesh, quads
 from tests.support.sky_images import random_sky, write_exr
 
-# Each shape and material; a lamp seen from both sides, and sheared: Mitsuba has rectangles for
-# those that are not.
+# Each shape and material. One lamp is seen from both sides, and sheared: Mitsuba has rectangles
+# only for lamps that are not.
 MATERIALS: dict[str, dict[str, Any]] = {
     "white": {"type": "lambertian", "color": [0.8, 0.75, 0.7]},
     "glass": glass(1.5),
@@ -34,7 +34,7 @@ OBJECTS = [
 CAMERA = {"position": [0.3, 1.3, 4.0], "look_at": [0.0, 0.6, 0.0], "defocus_angle": 8.0}
 SKY = {"bottom": [0.5, 0.3, 0.1], "top": [0.1, 0.3, 0.6]}
 
-# Those of which Mitsuba has its own: a cube, a wall without ends, and a disk of one side.
+# Shapes that Mitsuba has, too: a cube, a wall without ends, and a disk of one side.
 ROUND_LAMP = disk([0.4, 2.2, 0.3], [0.3, 1, 0.2], 0.4, "screen")
 GLASS_BOX = box([-1.6, 0.1, -0.3], [-0.6, 1.0, 0.6], "glass", [10, 35, -5])
 TUBE = cylinder([0.2, 0.3, 0.6], [0.35, 0.45, 1.3], 0.3, "white", capped=False)

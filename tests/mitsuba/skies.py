@@ -37,7 +37,7 @@ def _background(mi: Any, bottom: Radiance, *rest: Radiance) -> Words:
 
 
 def _image_of_sky(mi: Any, scene: Scene) -> Words:
-    """The image anew on a fine grid: Mitsuba's rows include both poles."""
+    """The image sampled again on a fine grid: Mitsuba's rows include both poles."""
     picture = scene.sky
     assert picture is not None
     assert picture.pixels is not None

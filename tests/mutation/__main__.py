@@ -30,7 +30,7 @@ FOUND = ("assert", "AssertionError", "\nNot equal to tolerance", "ValueError: Na
 
 
 class Outcome(NamedTuple):
-    """What the tests named by a mutant did."""
+    """The results of the tests named by a mutant."""
 
     is_fast: bool  # whether they belong to `make test`
     passed: int
@@ -46,7 +46,7 @@ class Outcome(NamedTuple):
 
 
 def copy_tree(target: Path) -> None:
-    """What the tests need of the tree."""
+    """Copy the parts of the tree that the tests need."""
     ignored = shutil.ignore_patterns("__pycache__")
     for name in COPIED:
         source = ROOT / name

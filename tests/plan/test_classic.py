@@ -253,7 +253,7 @@ def test_models_render_the_scenes_that_come_with_glrt(context: Context, method: 
 def test_a_loop_that_a_driver_cuts_is_noticed(
     call_glsl: CallGlsl, context: Context, model: int
 ) -> None:
-    """Of the lamps that a model adds up, and of the power in it: its path ends there."""
+    """The loop over a model's lamps, or the one of the power in it: the path ends there."""
     if not context.is_software:
         pytest.skip("this machine renders on hardware")
     lamps = [sphere([0.1 * i, 2, 0], 0.01, "lamp") for i in range(20)]

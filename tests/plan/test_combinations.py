@@ -1,4 +1,4 @@
-"""What goes with what: each cell of the table is tried, those that work and those that are refused.
+"""Each cell of the table of combinations is tried, whether it works or is refused.
 
 A way to render has a law, such as "a crop is that part of the frame, bit for bit". A cell works if
 the law of one holds under the other.

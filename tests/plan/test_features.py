@@ -96,7 +96,7 @@ def sky_with(flags: set[str]) -> dict[str, list[float]]:
 
 
 def _flat_shape(flags: set[str]) -> dict[str, Any]:
-    """Of a kind that is there anyway."""
+    """A flat shape of a kind that is there anyway."""
     if "HAS_DISK" in flags:
         return disk([0, 0, 0], [1, 0, 0], 1, "matte")
     return quad([0, 0, 0], [1, 0, 0], [0, 1, 0], "matte")
@@ -109,21 +109,21 @@ def _triangle(material: str, flags: set[str]) -> dict[str, Any]:
 
 
 def _cone_lamp(flags: set[str]) -> dict[str, Any]:
-    """Of a kind that is not sampled."""
+    """A cone lamp of a kind that is not sampled."""
     if "HAS_PLANE" in flags:
         return plane([0, -2, 0], [0, 1, 0], "spot")
     return box([0, 0, 0], [1, 1, 1], "spot")
 
 
 def _one_sided(flags: set[str]) -> dict[str, Any]:
-    """Of a kind that is sampled anyway, where there is one."""
+    """A one-sided lamp of a kind that is sampled anyway, where there is one."""
     if "HAS_QUAD_LIGHT" in flags:
         return quad([0, 3, 0], [1, 0, 0], [0, 0, 1], "lamp") | {"emission_side": "front"}
     return disk([0, 3, 0], [0, 1, 0], 1, "lamp") | {"emission_side": "front"}
 
 
 def needs_with(flags: set[str]) -> Needs:
-    """What a scene and settings need that ask for these features."""
+    """The needs of a scene and settings that ask for these features."""
 
     def body(material: str) -> dict[str, Any]:
         if "HAS_SPHERE" in flags:

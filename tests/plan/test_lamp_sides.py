@@ -16,7 +16,7 @@ SHINING: dict[str, Any] = {  # they face down, and are of size 0.4
 
 
 def moved(place: list[float], beyond: float = -1.0) -> Faces:
-    """A ball of radius 0.4 of triangles, of which those are left that reach so far along x."""
+    """A ball of radius 0.4 of triangles, without triangles that do not reach `beyond` along x."""
     points, faces = icosphere(2)
     there = points[faces][..., 0].max(axis=1) > beyond
     return 0.4 * points + place, faces[there]

@@ -50,7 +50,7 @@ def test_methods_agree_closely_where_it_is_hard(context: Context, name: str) -> 
 
 
 def sampled(name: str) -> set[str]:
-    """What `mis` samples in the scene: its lamps, its sun, its sky."""
+    """The lights that `mis` samples in the scene: its lamps, its sun, its sky."""
     scene = load(name)
     needs = needs_of(SceneFacts(scene), settings_for(scene.render, method="mis"))
     found = {"lamps": needs.sample_lights, "sun": needs.sample_sun, "sky": needs.sample_sky}

@@ -1,4 +1,4 @@
-"""What a method leaves out is told where it counts, and only there."""
+"""A method's omissions are reported where they count, and only there."""
 
 from typing import Any
 

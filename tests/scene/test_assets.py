@@ -17,7 +17,7 @@ SECRET = b"a private key"
 
 @pytest.fixture
 def base(tmp_path: Path) -> Path:
-    """A folder with files, beside a file that no scene in it may read."""
+    """A folder with files, next to a file that no scene in it may read."""
     folder = tmp_path / "scene"
     (folder / "models" / "maps").mkdir(parents=True)
     (folder / "models" / "chair.obj").write_bytes(b"mtllib chair.mtl")
@@ -29,7 +29,7 @@ def base(tmp_path: Path) -> Path:
 
 
 def refusal(folder: AssetFolder, path: str, named_by: Asset | None = None) -> str:
-    """What is said of a file, after the place; one printable paragraph."""
+    """The message that refuses a file, after the place: one printable paragraph."""
     reader = AssetReader(folder)
     with pytest.raises(SceneError) as caught:
         reader.read(path, WHERE, named_by)

@@ -41,7 +41,7 @@ def room(**parts: Any) -> glrt.Scene:
 
 
 def refusal(**parts: Any) -> str:
-    """What is wrong, without the words that it begins with."""
+    """The message that refuses a scene, without the words that it begins with."""
     with pytest.raises(SceneError) as caught:
         room(**parts)
     assert_is_one_paragraph(str(caught.value), "Scene.build")
@@ -120,7 +120,7 @@ def test_of_settings_a_scene_takes_what_were_given() -> None:
 
 @pytest.mark.slow
 def test_ten_thousand_spheres_take_a_moment() -> None:
-    """Of the processor, and the least of several: whatever else the machine does."""
+    """The least processor time of several runs: whatever else the machine does."""
     centers, radii = np.random.default_rng(0).random((10_000, 3)), np.full(10_000, 0.01)
     taken = []
     for _ in range(3):

@@ -38,7 +38,7 @@ def test_smooth_glass_loses_nothing_worth_restoring() -> None:
 
 @pytest.mark.slow
 def test_facets_between_tabled_roughnesses_are_near_their_integrals() -> None:
-    """Of textured roughness, where the table is off most: 0.00082 at step 76, of all 256."""
+    """Textured roughness, where the table is off most: 0.00082 at step 76, of all 256."""
     table = shares_by_step()
     for step in (34, 38, 62, 76, 84, 250):
         exact = facet_shares((step / ROUGHNESS_STEPS) ** 2)

@@ -38,7 +38,7 @@ def told(scene: Scene) -> list[str]:
 
 
 def model(folder: Path, text: str, **files: str | bytes) -> Scene:
-    """The scene of an OBJ file with others beside it, `a_b` for a.b."""
+    """The scene of an OBJ file with others next to it, `a_b` for a.b."""
     (folder / "thing.obj").write_bytes(text.encode())
     for name, content in files.items():
         path = folder / name.replace("_", ".").replace(",", "/")

@@ -1,4 +1,4 @@
-"""Models of every format as scenes, with the files that lie beside them."""
+"""Models of every format as scenes, with the files that lie next to them."""
 
 from pathlib import Path
 
@@ -51,7 +51,7 @@ def test_an_obj_file_has_its_image(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_a_saved_model_has_the_same_picture_elsewhere(tmp_path: Path, context: Context) -> None:
-    """With the files beside it that it needs."""
+    """The files that it needs are saved with it."""
     builder = textured_square()
     (tmp_path / "thing.gltf").write_bytes(builder.gltf("data/thing.bin"))
     (tmp_path / "data").mkdir()
@@ -111,7 +111,7 @@ def test_a_texture_stays_on_the_driver_through_edits(tmp_path: Path, context: Co
 def test_too_many_triangles_of_all_meshes_are_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Each file alone has room; those that are kept once count once."""
+    """Each file alone has room; meshes that are kept once count once."""
     monkeypatch.setattr(scene_files, "MOST_TRIANGLES", 5)
     (tmp_path / "thing.glb").write_bytes(textured_square().glb())
     camera = "[camera]\nposition = [0, 0, 3]\nlook_at = [0, 0, 0]\n"

@@ -57,7 +57,7 @@ def test_what_is_left_out_is_named() -> None:
     assert material_of(found["a"])[1] == ["Tf", "d", "Ks"]
 
 
-# What a line says, the material that is meant, and what was left out.
+# A line, the material that it means, and what was left out.
 OUT_OF_RANGE: dict[str, tuple[Lambertian | Metal | Dielectric, list[str]]] = {
     "Kd 1.000001 0.25 0.125": (Lambertian(color=(1, 0.25, 0.125)), []),
     "Kd 0.5 -1e-9 0": (Lambertian(color=(0.5, 0, 0)), []),

@@ -1,4 +1,4 @@
-"""Scenes that name an image: read, checked, saved beside its file."""
+"""Scenes that name an image: read, checked, saved next to its file."""
 
 from pathlib import Path
 

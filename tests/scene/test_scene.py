@@ -223,7 +223,7 @@ def test_defaults_are_written_out_for_recipes() -> None:
 
 
 def test_reading_hundreds_of_objects_takes_milliseconds() -> None:
-    """Of the processor, and the least of several: whatever else the machine does."""
+    """The least processor time of several runs: whatever else the machine does."""
     objects = [MINIMAL["objects"][0]] * 480
     taken = []
     for _ in range(5):

@@ -103,7 +103,7 @@ METHOD_SCENES = sorted((folder("scenes") / "methods").glob("*.toml"))
 
 
 def test_thirteen_scenes_separate_the_methods_before_one_camera() -> None:
-    """But for the room that is closed behind the camera, too."""
+    """The exception is the room that is also closed behind the camera."""
     scenes = [load(f"methods/{file.stem}") for file in METHOD_SCENES]
     assert len(scenes) == 13
     assert len({scene.title for scene in scenes} - {None}) == 13
@@ -127,7 +127,7 @@ def test_a_scene_that_separates_methods_suits_exposure_0(file: Path, context: Co
 
 
 class Links(HTMLParser):
-    """What a page links to and shows."""
+    """The links and pictures of a page."""
 
     def __init__(self, page: str) -> None:
         super().__init__()

@@ -96,7 +96,7 @@ def test_python_gives_textures(tmp_path: Path) -> None:
 
 
 def test_colors_are_decoded_and_numbers_are_not(tmp_path: Path) -> None:
-    """Of one file: as base colour, and as roughness."""
+    """The test uses one file as base colour and as roughness."""
     (tmp_path / "a.png").write_bytes(png(CODES))
     scene = scene_with(color={"image": "a.png"}, roughness={"image": "a.png"})
     scene.save(tmp_path / "scene.toml")

@@ -131,6 +131,6 @@ def test_any_value_in_any_place_gives_a_scene_or_a_paragraph(odd: Any) -> None:
 
 
 def test_an_unknown_key_may_be_called_as_pydantic_calls_places() -> None:
-    """A place that ends in [key] stands for a key of a table, but for one that is there."""
+    """A place that ends in [key] stands for a key of a table, unless there is such a key."""
     with pytest.raises(SceneError, match=r"unknown key '\[key\]'"):
         parse_scene({"[key]": {}, "camera": {"position": [0, 0, 1], "look_at": [0, 0, 0]}}, "test")

@@ -91,7 +91,7 @@ AROUND = sphere([0, 0, 0.5], 2, "m")  # the camera is at the origin
         ([AROUND], True),
         ([sphere([0, 0, 0.5], 2, "glass")], False),
         ([sphere([0, 0, 0.5], 2, "lamp")], False),
-        ([sphere([0, 0, 2.5], 2, "m")], False),  # beside it
+        ([sphere([0, 0, 2.5], 2, "m")], False),  # next to it
         ([AROUND, sphere([0, 0, 5], 1, "lamp")], True),  # a lamp outside
         ([AROUND, sphere([0, 0, 0.5], 4, "lamp")], True),  # around
         ([AROUND, sphere([0, 1, 0], 0.2, "lamp")], False),  # inside

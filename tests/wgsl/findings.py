@@ -25,14 +25,14 @@ NAN = "bitcast<f32>(0x7FC00000u | settings.zero)"
 
 
 class Symptoms(NamedTuple):
-    """What is seen."""
+    """The symptoms of a picture, in figures."""
 
     brightness: float  # mean of all colours, of 255
     shadow: float  # the floor under the board, over the open floor
     green_dots: int  # pixels that are green alone
 
     def beside(self, healthy: "Symptoms") -> set[str]:
-        """Those of the thesis's three that are worse than in the healthy picture."""
+        """The thesis's symptoms, of its three, that are worse than in the healthy picture."""
         found = {
             "darker": self.brightness < 0.95 * healthy.brightness,
             "harder shadows": self.shadow < 0.9 * healthy.shadow,
@@ -42,7 +42,7 @@ class Symptoms(NamedTuple):
 
 
 class Suspicion(NamedTuple):
-    """What may have gone wrong: faults of the text, a tracer with faults, a format of colours."""
+    """A possible cause: faults of the text, a tracer with faults, a format of colours."""
 
     faults: tuple[Fault, ...] = ()
     tracer: type[Tracer] = Tracer

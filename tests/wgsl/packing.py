@@ -44,7 +44,7 @@ def material_buffer(scene: Scene) -> bytes:
 
 
 def settings_buffer(scene: Scene, settings: Settings) -> bytes:
-    """What stays the same from frame to frame."""
+    """The buffer of values that stay the same from frame to frame."""
     kinds = [shape.shape for shape in scene.objects]
     if scene.background.horizon or not {"sphere", "plane", "quad"}.issuperset(kinds):
         raise SceneError("a horizon, or a shape: WGSL has spheres, planes and quads alone.")

@@ -1,4 +1,4 @@
-"""How fast the WGSL version is beside the kernel: `python -m tests.wgsl.speed`.
+"""The speed of the WGSL version against the kernel's: `python -m tests.wgsl.speed`.
 
 Ratios of interleaved runs, the same paths everywhere: `naive`, no roulette, one set of seeds.
 """

@@ -17,7 +17,7 @@ _GLSL = {"f32": "float", "i32": "int", "u32": "uint", "f": "", "i": "i", "u": "u
 
 
 class Fault(NamedTuple):
-    """What a test plants: in this file, this passage replaced."""
+    """A fault that a test plants: in this file, this passage replaced."""
 
     file: str
     passage: str
