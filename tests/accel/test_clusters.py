@@ -129,7 +129,7 @@ def test_clusters_and_their_parts_hold_all_lamps_with_their_flux(count: int) -> 
 
 @pytest.mark.parametrize("count", COUNTS)
 def test_tables_choose_by_flux_within_a_part(count: int) -> None:
-    """And stay within it."""
+    """The tables stay within the part."""
     rows = packed(mixed(count))
     for number, part in enumerate(rows["Cluster"]):
         if number < MOST_NEAR or not part["count"]:

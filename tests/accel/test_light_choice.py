@@ -123,7 +123,7 @@ def test_a_lamp_has_its_chance_at_the_very_ends(call_glsl: CallGlsl) -> None:
 
 
 def test_more_lamps_than_that_are_weighed_in_clusters() -> None:
-    """And one lamp is not chosen at all; naive chooses none."""
+    """A single lamp needs no choice; naive chooses none."""
     for count, clusters in ((1, 1), (2, 2), (MOST_NEAR, MOST_NEAR), (MOST_NEAR + 1, MOST_NEAR)):
         scene = balls(count)
         needs = needs_of(SceneFacts(scene), settings_for(scene.render))

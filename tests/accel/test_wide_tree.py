@@ -133,7 +133,7 @@ def test_a_tree_that_would_be_too_deep_is_divided_into_halves(
 
 
 def test_splits_are_better_than_halves() -> None:
-    """By the surface area heuristic: the area of all nodes, relative to the root."""
+    """The measure is the surface area heuristic: the area of all nodes, relative to the root."""
     areas = []
     for halves in (False, True):
         tree = binary_tree.build(*boxes(1000), halves=halves)

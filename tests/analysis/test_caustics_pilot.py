@@ -34,7 +34,7 @@ def test_a_choice_that_is_given_whole_is_tried_once(
 def test_links_are_tried_where_a_sphere_has_them(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Not through thin glass."""
+    """Links do not go through thin glass."""
     tried: list[float] = []
 
     def gain(_: Scene, settings: Settings, *__: object) -> float:
@@ -111,7 +111,7 @@ def under_a_ball(radius: float) -> Scene:
 def test_light_that_no_path_finds_is_not_taken_for_darkness(
     radius: float, context: Context
 ) -> None:
-    """Without particles, the errors of a picture know nothing of the caustic of a tiny lamp."""
+    """Without particles, a picture's errors miss the caustic of a tiny lamp."""
     found = particles_worth(under_a_ball(radius), Settings(width=32, height=32), context)
     assert found
     assert found.settings.caustics == "on"

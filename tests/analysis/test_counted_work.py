@@ -126,7 +126,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 @contextmanager
 def slow_clock(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """As on a machine that is 30 times as slow."""
+    """The clock goes as on a machine that is 30 times as slow."""
     real = time.perf_counter
     with monkeypatch.context() as patch:
         patch.setattr(time, "perf_counter", lambda: 30 * real())
@@ -194,7 +194,7 @@ def test_processes_at_different_load_write_the_same_bytes(tmp_path: Path) -> Non
 def choice_by(
     monkeypatch: pytest.MonkeyPatch, deadline: float | None, **given: int
 ) -> advice.Choice:
-    """What is chosen where a measurement finds `mis`, or where it has no time."""
+    """The choice where a measurement finds `mis`, or where it has no time."""
     ones = Reference(np.ones((1, 1, 3)), np.ones((1, 1, 3)), 1, 1)
 
     def measure(*arguments: object) -> Verdict:

@@ -53,7 +53,7 @@ def picture(seed: int, samples: int, context: Context) -> Floats:
 
 
 def test_half_as_many_samples_must_suffice(context: Context) -> None:
-    """With a plain picture of 96 samples no denoised one is tried, with 128 one is."""
+    """No denoised picture is tried against a plain one of 96 samples; one is against 128."""
     assert denoised_choice(ROOM, chosen(96 * 0.5**2), 0.5, context) is None
     found = denoised_choice(ROOM, chosen(128 * 0.5**2), 0.5, context)
     assert found

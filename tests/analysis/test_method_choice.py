@@ -92,7 +92,7 @@ def test_what_is_measured_of_a_crop_is_the_crop(
 def test_the_time_of_a_crop_is_its_share_of_the_frame(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """By a clock that goes on by one at each look, all pictures take the same time."""
+    """The clock goes on by one at each look: all pictures take the same time."""
     monkeypatch.setattr(trial, "time", Clock())
     monkeypatch.setattr(search, "time", Clock())
     scene = furnace()

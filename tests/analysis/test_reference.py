@@ -248,7 +248,7 @@ def test_samples_double_until_the_error_is_reached(context: Context) -> None:
 def test_counted_samples_end_a_reference_whatever_the_clock_says(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """By a clock on which each look takes an hour."""
+    """Each look at the test's clock takes an hour."""
     hours = itertools.count(step=3600.0)
     clock = SimpleNamespace(perf_counter=lambda: next(hours))
     monkeypatch.setattr(reference, "time", clock)

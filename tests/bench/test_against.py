@@ -32,7 +32,7 @@ def needs_history() -> None:
 
 @pytest.fixture
 def repository(tmp_path: Path) -> Path:
-    """With one commit, of a checkout whose glrt is a few lines."""
+    """A repository with one commit of a checkout whose glrt is a few lines."""
     needs_package(bool(shutil.which("git")), "git")
     folder = tmp_path / "repository"
     (folder / "glrt").mkdir(parents=True)
@@ -194,7 +194,7 @@ def test_a_commit_that_does_not_start_is_reported(
 def test_the_number_of_threads_is_set_where_it_is_asked_for(
     repository: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    """And left alone where it is not."""
+    """Where nobody asks for a number, it is left alone."""
     program = tmp_path / "program.py"
     program.write_text(
         "import json, os, sys\n"

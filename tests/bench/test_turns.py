@@ -122,7 +122,7 @@ serve("Busy 1", render)
 
 @pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
 def test_a_process_is_stopped_between_its_turns() -> None:
-    """With all of its threads, also one that never waits."""
+    """All of its threads stop, also one that never waits."""
 
     def turn(peer: Peer) -> list[str]:
         with pytest.raises(RenderError) as said:

@@ -103,7 +103,7 @@ def test_no_traceback_from_the_first_import_on(count: int, tmp_path: Path) -> No
 
 
 def test_nothing_is_imported_before_ctrl_c_is_seen_to() -> None:
-    """But what Python itself or the script of the command has imported already."""
+    """Imports by Python itself or by the command's script are excepted."""
     code = (
         "import re, sys; before = set(sys.modules); import glrt.cli.main; "
         "print(*sorted(set(sys.modules) - before))"

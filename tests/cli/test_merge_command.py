@@ -101,7 +101,7 @@ def test_parts_of_two_drivers_merge_with_a_caution(
 def test_parts_by_both_pipelines_merge_with_a_caution(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """As by two drivers: rendered again, one of the two makes all parts."""
+    """The caution is that for two drivers: rendered again, one of the two makes all parts."""
     for number, pipeline in enumerate(["compute", "fragment"], 1):
         words = ["--samples", "32", "--part", f"{number}/2", "--pipeline", pipeline]
         assert main(["render", *SCENE, *words, "-o", str(tmp_path / f"{number}.exr")]) == 0
@@ -262,7 +262,7 @@ def test_an_interrupted_part_is_finished_as_the_message_says(
 def test_seven_parts_in_any_order_are_a_picture_that_can_be_rendered_again(
     tmp_path: Path,
 ) -> None:
-    """By the real commands, the last ones in processes of their own: the same bytes."""
+    """The test runs the real commands, the last in their own processes: the bytes are the same."""
     names = [str(tmp_path / f"{number}.exr") for number in range(1, 8)]
     words = [*SCENE, "--samples", "120", "--aov", "depth,object"]
     for number, name in enumerate(names, 1):

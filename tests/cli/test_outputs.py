@@ -51,7 +51,7 @@ def scene(tmp_path: Path) -> Path:
 def test_the_scene_file_is_no_output(
     kind: str, scene: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Neither by a link, nor by its own name, if that ends as that of an image."""
+    """It is none by a link, nor by its own name if that ends like an image's."""
     output, content = tmp_path / "room.npy", scene.read_bytes()
     if kind == "rename":
         scene = scene.rename(output)

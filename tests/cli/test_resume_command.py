@@ -41,7 +41,7 @@ def test_the_picture_itself_may_be_the_output(folder: Path, tmp_path: Path) -> N
 
 @pytest.mark.parametrize("scene", ["cornell", "{folder}/a.exr", "{folder}/whole.exr"])
 def test_the_scene_may_be_named(folder: Path, tmp_path: Path, scene: str) -> None:
-    """Also as a picture of it; its size and all else come from the picture to go on from."""
+    """A picture of it may be named, too; all settings come from the picture to go on from."""
     options = ("--resume", folder / "a.exr", "--samples", "48", "-o", tmp_path / "b.exr")
     done = glrt("render", scene.format(folder=folder), *options)
     assert done.returncode == 0, done.stderr
@@ -68,7 +68,7 @@ def test_error_is_judged_where_one_render_would_judge_it(folder: Path, tmp_path:
 
 @pytest.mark.slow
 def test_time_adds_a_sample_at_least(folder: Path, tmp_path: Path) -> None:
-    """And then nobody knows how far to go on: that is asked for."""
+    """Then nobody knows how far to go on, so the command asks for it."""
     options = ("--resume", folder / "a.exr", "-o", tmp_path / "b.exr")
     assert glrt("render", *options, "--time", "0.01").returncode == 0
     assert 20 < Image.load(tmp_path / "b.exr").samples < 1 << 20

@@ -76,7 +76,7 @@ def test_a_command_that_renders_no_picture_is_only_interrupted(
 
 
 def test_a_signal_that_is_ignored_stays_ignored(tmp_path: Path) -> None:
-    """As by nohup, or in the background of a script."""
+    """It is ignored under nohup, or in the background of a script."""
     command = (
         "import os, signal, sys; signal.signal(signal.SIGINT, signal.SIG_IGN); "
         "from glrt.process import signals; s = signals.handled(signals.interrupt); s.__enter__(); "

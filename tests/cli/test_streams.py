@@ -49,7 +49,7 @@ def test_closed_streams_leave_the_exit_code() -> None:
 
 
 def test_a_picture_does_not_get_the_number_of_a_closed_stream() -> None:
-    """Else what a driver says on stderr would be written into it."""
+    """Otherwise a driver's messages on stderr would be written into the picture."""
     probe = (
         f'"{sys.executable}" -c "import os; from glrt.process.command import open_missing; '
         "open_missing(); "

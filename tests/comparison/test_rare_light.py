@@ -25,7 +25,7 @@ def test_what_the_other_picture_has_too_is_not_rare() -> None:
 
 
 def test_a_noisy_place_is_not_rare() -> None:
-    """Nor is the edge between a noisy and a calm place, though most of a block is calm."""
+    """The edge between a noisy and a calm place is not rare, though most of a block is calm."""
     variance = np.full((32, 32, 3), 1e-9)
     variance[:, 13:] = 1e-2
     assert not rare_variance(variance, np.zeros_like(variance)).any()

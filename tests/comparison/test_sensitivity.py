@@ -19,7 +19,7 @@ FEWEST = 80  # of 100 where each is found 9 times in 10: fewer happen once in 1,
 
 
 def brighter(image: Image, change: np.ndarray) -> Image:
-    """With `change`, (H, W, 3), added."""
+    """The image with `change`, (H, W, 3), added."""
     return replace(image, radiance=image.radiance + change.astype(np.float32))
 
 

@@ -281,7 +281,7 @@ def test_unknown_errors_cost_no_more_than_half_of_the_sharpness(samples: tuple[i
     ids=str,
 )
 def test_pictures_of_other_noise_are_not_taken_as_alike(change: dict[str, Any]) -> None:
-    """So that neither's standard errors are held against the spread of the other."""
+    """Otherwise the standard errors of one would be compared with the spread of the other."""
     plain = replace(noisy("smooth", 64, 1), recipe=recipe())
     other = replace(noisy("smooth", 64, 2), recipe=recipe(**change))
     assert _same_method(plain, plain)

@@ -24,7 +24,7 @@ def test_particles_bring_the_same_light(context: Context, mitsuba: Peer) -> None
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["methods/caustic", "methods/gap", "cornell"])
 def test_so_do_caustics(context: Context, mitsuba: Peer, name: str) -> None:
-    """And walls that reflect less are found."""
+    """The test also finds walls that reflect less."""
     scene, size = load(name), {"width": 32, "height": 32, "bounces": 6}
     ways: dict[str, Any] = {**size, **LINKED, "sampler": "sobol", "roulette": True}
     reference = theirs(mitsuba, scene, 1 << 14, **size)

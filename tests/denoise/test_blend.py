@@ -107,7 +107,7 @@ def test_what_few_look_like_is_trusted_half() -> None:
 
 
 def test_no_filter_is_better_than_a_percent() -> None:
-    """With noise of a tenth of that the plain picture is shown, however right the filter looks."""
+    """Noise of a tenth of that shows the plain picture, however right the filter looks."""
     half = drawn(np.random.default_rng(9), TRUTH).halves[0]
     noise = 1e-3 * (half.radiance - TRUTH)
     half = half._replace(radiance=(TRUTH + noise).astype(np.float32), variance=1e-6 * half.variance)

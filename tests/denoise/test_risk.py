@@ -128,7 +128,7 @@ def test_the_sum_of_the_halves_weighs_them_by_their_samples() -> None:
 
 
 def test_the_relative_error_is_that_of_plain_pictures() -> None:
-    """With a squared error of each pixel and a hundredth of the mean in the denominator."""
+    """It has each pixel's squared error, and a hundredth of the mean in the denominator."""
     radiance = np.full((2, 2, 3), 2.0, np.float32)
     assert relative_error(np.full((2, 2, 3), 0.0404), radiance) == pytest.approx((0.1, 0.1))
     assert relative_error(np.full((2, 2, 3), -1.0), radiance) == (0, 0)

@@ -28,7 +28,7 @@ def even(size: int = SIZE) -> tuple[Pixels, Pixels]:
 def with_rim(shown: float, error: float, beside: float = SKY) -> tuple[Pixels, Pixels]:
     """The same with a pixel in the middle that shows so much of a lamp, with so large an error.
 
-    The pixel next to it has the light `beside` for certain.
+    The pixel next to it has a certain light.
     """
     radiance, stderr = even()
     middle = SIZE // 2

@@ -94,7 +94,7 @@ def test_the_rim_of_a_lamp_counts_by_its_own() -> None:
 def test_a_highlight_of_one_pixel_that_many_samples_met_counts_by_its_own(
     hits: float, within: float
 ) -> None:
-    """With h hits, the level squared is less by 4 / h."""
+    """The squared level is less by 4 / h for h hits."""
     radiance, stderr = even()
     radiance[7, 20] = 1000.0
     stderr[7, 20] = 1000.0 / math.sqrt(hits)

@@ -24,7 +24,7 @@ COUNTS = ("count", "observations")
 
 @pytest.fixture(scope="module")
 def image(context: Context) -> Image:
-    """With all AOVs: sky, edges, and a part of an observation."""
+    """An image with all AOVs: sky, edges, and a part of an observation."""
     return rendered(heap(), context, 37, sampler="sobol", aov=ALL, **SIZE)
 
 
@@ -87,7 +87,7 @@ def test_channels_have_the_names_that_other_programs_know(image: Image, tmp_path
 def test_an_aov_that_lost_a_channel_is_left_out(
     image: Image, tmp_path: Path, lost: str, rest: tuple[Aov, ...]
 ) -> None:
-    """As by a program that keeps what it knows; the picture and the others stay."""
+    """A program may keep only channels that it knows; the picture and the other AOVs stay."""
     import OpenEXR
 
     image.save(tmp_path / "a.exr")

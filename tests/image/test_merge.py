@@ -105,7 +105,7 @@ def test_fewer_than_two_observations_have_no_error() -> None:
 
 @pytest.mark.parametrize("count", [2, 5])
 def test_bits_do_not_depend_on_the_order(count: int, tmp_path: Path) -> None:
-    """Nor does the file: of what may differ, such as the exposure, the first part's counts."""
+    """The file does not either: where parts may differ, as in exposure, the first part's counts."""
     given = [
         replace(image, recipe=recipe_of(image).model_copy(update={"settings": settings}))
         for number, image in enumerate(parts(count))
@@ -150,7 +150,7 @@ def test_a_merged_file_holds_what_was_merged(tmp_path: Path) -> None:
 
 
 def test_parts_from_files_are_those_from_memory(tmp_path: Path) -> None:
-    """And each is loaded when its turn comes, in the order of the parts, once for each film."""
+    """Each part is loaded when its turn comes, in the order of the parts, once for each film."""
     render = render_of(149, *ALL)
     given, loaded = {f"{n}.exr": image for n, image in enumerate(parts(4, of=render))}, []
     for name, image in given.items():

@@ -28,7 +28,7 @@ def parts(count: int, numbers: Sequence[int] = (), of: Render = RENDER) -> list[
 
 
 def changed(image: Image, **changes: Any) -> Image:
-    """With another recipe."""
+    """The image with another recipe."""
     return replace(image, recipe=recipe_of(image).model_copy(update=changes))
 
 

@@ -61,7 +61,7 @@ def test_one_set_is_taken_as_it_is() -> None:
     st.integers(0, 99),
 )
 def test_wherever_samples_are_cut_nothing_is_lost(cuts: list[int], rest: int, seed: int) -> None:
-    """Also into parts that hold nothing."""
+    """Some parts hold nothing."""
     samples = noise(30 * BLOCK + rest, seed)
     assert_same(together(cut(samples, cuts)), moments_of(samples))
 
@@ -69,7 +69,7 @@ def test_wherever_samples_are_cut_nothing_is_lost(cuts: list[int], rest: int, se
 @settings(max_examples=40, deadline=None, derandomize=True, database=None)
 @given(st.integers(2, 17), st.integers(0, 99))
 def test_pixels_that_met_nothing_for_whole_observations_have_fewer(count: int, seed: int) -> None:
-    """As the depth of an edge: some observations, and some pixels, have no sample at all."""
+    """Depth at an edge is such a case: some observations, and some pixels, have no sample."""
     samples = noise(20 * BLOCK, seed)
     is_empty = np.random.default_rng(seed).random((20, *samples.shape[1:3])) < 0.4
     samples[np.repeat(is_empty, BLOCK, axis=0)] = np.nan

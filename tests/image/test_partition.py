@@ -65,7 +65,7 @@ def test_a_partition_reports_what_it_lacks() -> None:
 
 @pytest.mark.parametrize("numbers", [(), (0,), (4,), (2, 1), (1, 1), (1, 2, 3, 4)])
 def test_numbers_that_are_no_parts_are_no_partition(numbers: tuple[int, ...]) -> None:
-    """As in a recipe that was tampered with."""
+    """Such numbers come from a recipe that was tampered with."""
     with pytest.raises(ValidationError):
         Partition(count=3, numbers=numbers)
 

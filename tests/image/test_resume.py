@@ -198,7 +198,7 @@ def test_pictures_of_others_are_refused(image: Image, said: str) -> None:
 
 
 def test_a_picture_that_lost_a_channel_is_refused(begun: Image, tmp_path: Path) -> None:
-    """As by a program that knows no unsigned channels, or not those of glrt."""
+    """A program may not know unsigned channels, or not the channels of glrt."""
     import OpenEXR  # type: ignore[import-not-found]
 
     begun.save(tmp_path / "a.exr")

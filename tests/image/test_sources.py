@@ -51,7 +51,7 @@ def test_a_path_comes_before_a_name(name: str) -> None:
 
 @pytest.mark.parametrize("path", ["cornell.toml", "cornell.TOML", "more/glass.toml", "nosuch.toml"])
 def test_a_path_is_never_a_name(path: str, scenes: Path) -> None:
-    """Not even that of a file which was there a moment ago."""
+    """This holds even for a file that was there a moment ago."""
     (scenes / "more").mkdir()
     (scenes / "more" / "glass.toml").write_text(TOML.format(title="deeper"))
     with pytest.raises(SceneError, match=f"^{path}: no such file; "):

@@ -125,7 +125,7 @@ def solids(*objects: dict[str, Any]) -> Scene:
 
 
 def solids_but(old: dict[str, Any], **changes: Any) -> Scene:
-    """With one of them changed."""
+    """The solids with one of them changed."""
     return solids(*(item | changes if item is old else item for item in SOLIDS))
 
 

@@ -84,7 +84,7 @@ def test_methods_agree_on_scene_files(context: Context, name: str) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("name", LIT)
 def test_methods_agree_closely_on_scene_files(context: Context, name: str) -> None:
-    """With nee on cornell too: its lamp hangs a thousandth of the room below the ceiling."""
+    """So does nee on cornell: its lamp hangs a thousandth of the room below the ceiling."""
     more = 3 if name == "table" else 1  # its glasses throw caustics
     rare, loose = SPOTS if name == "stage" else (1, 1)
     samples = Samples(naive=8192 * more * rare, nee=8192 * more, mis=4096 * more)
@@ -94,7 +94,7 @@ def test_methods_agree_closely_on_scene_files(context: Context, name: str) -> No
 @pytest.mark.slow
 @pytest.mark.parametrize("name", SUNNY)
 def test_methods_agree_under_a_sun(context: Context, name: str) -> None:
-    """Without `naive`, which meets a sun of half a degree once in 100,000 directions."""
+    """The test omits `naive`: it meets a sun of half a degree once in 100,000 directions."""
     nee, mis = (
         rendered(load(name), context, 1024, method=method, seed=seed, **small(name, 16))
         for seed, method in enumerate(("nee", "mis"))

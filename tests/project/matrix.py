@@ -47,7 +47,7 @@ class Way(NamedTuple):
 
     @property
     def title(self) -> str:
-        """As the head of a column."""
+        """The title as the head of a column."""
         return f"{self.route} {self.pipeline}{', ' if self.driver else ''}{self.driver}"
 
 

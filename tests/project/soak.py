@@ -89,7 +89,7 @@ def any_way(chance: random.Random, method: Method) -> dict[str, Any]:
 
 
 def change(renderer: Renderer, scene: Scene, chance: random.Random) -> None:
-    """As the window does: another scene and other settings, some work, and what is shown."""
+    """Change as the window does: another scene and settings, some work, and the shown picture."""
     settings = any_settings(chance)
     renderer.update(scene, any_layering(chance, settings["method"]), **settings)
     renderer.advance(0.05)
@@ -102,7 +102,7 @@ def change(renderer: Renderer, scene: Scene, chance: random.Random) -> None:
 
 
 def open_another(context: Context | None, scene: Scene, chance: random.Random, file: Path) -> None:
-    """As a script does: a picture, saved and read again; without a context, in one of its own."""
+    """Open another as a script does, save and read its picture; by default in its own context."""
     routes: list[Choice] = ["egl", "osmesa"] if find_library("OSMesa") else ["egl"]
     route = chance.choice(routes)
     settings = any_settings(chance)

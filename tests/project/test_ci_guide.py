@@ -75,7 +75,7 @@ def test_the_example_fails_on_a_wrong_picture_and_shows_it(project: Path) -> Non
 
 @pytest.mark.slow
 def test_the_number_of_threads_changes_no_bit(tmp_path: Path) -> None:
-    """As the page promises; the variable is that of llvmpipe."""
+    """The page promises this; the variable is llvmpipe's."""
     bits = []
     for threads in ("0", "3"):
         file = tmp_path / f"{threads}.npy"

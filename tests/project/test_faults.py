@@ -190,7 +190,7 @@ def test_a_context_that_is_lost_after_a_save_costs_only_what_came_later(
 
 
 def test_this_driver_says_that_no_context_is_lost(context: Context) -> None:
-    """That the question is put in a way that the driver understands."""
+    """This shows that the driver understands the question."""
     with context.gl:
         assert context._reset_status() == 0
         assert context.gl.error == "GL_NO_ERROR"

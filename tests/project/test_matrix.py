@@ -39,7 +39,7 @@ def test_every_way_draws_the_same_bits(first: dict[str, Any], way: Way) -> None:
 
 @pytest.mark.slow
 def test_another_driver_draws_the_same_picture() -> None:
-    """With its noise: paths part where a rounding decides, if any does."""
+    """The noise is the same: paths part only where a rounding decides."""
     needs_package(bool(find_library("EGL")), "libegl1")
     first, *others = (drawn(way, SHARE) for way in (WAYS[0], *WAYS[-2:]))
     are_others = all("zink" in str(found["renderer"]) for found in others)

@@ -125,7 +125,7 @@ def sized(scene: Scene, width: int = 16, height: int = 12) -> Scene:
 def test_aovs_report_what_the_camera_rays_of_paths_meet(
     context: Context, call_glsl: CallGlsl, name: str
 ) -> None:
-    """By a tree of 484 balls, through a lens; and without either."""
+    """Rays meet a tree of 484 balls through a lens; another case has neither."""
     scene = sized(load("weekend") if name == "weekend" else heap())
     origins, ways = camera_rays(call_glsl, scene)
     eye = np.array(scene.camera.position)
@@ -153,7 +153,7 @@ def albedos(scene: Scene, objects: Array) -> Array:
 def test_the_nearest_of_a_tree_is_that_of_the_scene_itself(
     context: Context, call_glsl: CallGlsl
 ) -> None:
-    """By the geometry that picking uses, one ray at a time."""
+    """The truth is the geometry that picking uses, one ray at a time."""
     scene = sized(load("weekend"))
     origins, ways = camera_rays(call_glsl, scene)
     found = gathered(scene, context, 1, width=16, height=12)["depth"].value

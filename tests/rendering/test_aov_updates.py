@@ -63,7 +63,7 @@ def _few(observations: Any) -> Any:
 
 
 def test_a_window_works_on_picture_and_aovs(context: Context) -> None:
-    """By `advance`, which ends when both are done; then there is nothing to change."""
+    """It calls `advance`, which ends when both are done; then there is nothing to change."""
     with rendering(heap(), context, **SMALL, aov=ALL) as renderer:
         while renderer.lacks(20):
             renderer.advance(0.01, 20)

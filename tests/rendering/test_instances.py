@@ -96,7 +96,7 @@ def objects_met(scene: Scene, seen: Array) -> Array:
 @pytest.mark.slow_cases("1", "2", "3")
 @pytest.mark.parametrize("number", range(len(PLACES)))
 def test_rays_find_an_instance_where_it_stands(call_glsl: CallGlsl, number: int) -> None:
-    """As in float64: the bound of distances is that of float32 in the frame of the mesh."""
+    """Hits are as in float64; distances have the bound of float32 in the frame of the mesh."""
     away = {"translate": [4.0, 0, 0]}
     scene = placed(PLACES[number], away)
     origin, direction = rays(4096, 5)
@@ -221,7 +221,7 @@ def group(scale: float = 1.0, offset: tuple[float, float, float] = (0, 0, 0)) ->
 def test_instances_look_as_if_their_triangles_were_kept_apart(
     context: Context, method: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """By the same random numbers: what is left is rounding, which few paths feel."""
+    """Both use the same random numbers: only rounding is left, which changes few paths."""
     settings: dict[str, Any] = {"method": method, "bounces": 6, "width": 24, "height": 24}
     assert SceneFacts(group()).instances == (0, 1, 2)
     ours = rendered(group(), context, 64, **settings).radiance

@@ -56,7 +56,7 @@ def test_faces_of_one_plane_are_shaded_alike(context: Context, method: str) -> N
 
 
 def picture(context: Context, objects: list[dict[str, Any]], method: str) -> Array:
-    """With the lamp, and a sky for what mirrors show."""
+    """The picture with the lamp, and with a sky for mirrors to show."""
     scene = scene_of([*objects, BULB], MATERIALS, {"fov": FOV}, background=SKY)
     size: dict[str, Any] = {"width": 24, "height": 24, "bounces": 3}
     return rendered(scene, context, 2, method=method, **size).radiance

@@ -106,7 +106,7 @@ def test_a_link_through_a_ball_is_as_long_as_its_path(context: Context) -> None:
 
 @pytest.mark.parametrize("group", ["dim", "spot"])
 def test_what_is_shown_is_the_picture(by_group: Renderer, group: str) -> None:
-    """Also where a group without a lamp is dimmed, and all weights are 1."""
+    """This holds also where a group without a lamp is dimmed, and all weights are 1."""
     by_group.update(with_lights(ROOM, {group: 0.5}), "groups")
     shown, image = by_group.display(), by_group.image()
     with by_group.context.gl:
@@ -147,7 +147,7 @@ def test_a_moved_camera_compiles_nothing_once_particles_are_off(context: Context
 
 @pytest.mark.slow
 def test_the_error_of_a_relit_picture_is_its_spread(context: Context) -> None:
-    """Over 64 renders, within 12 %: the root of the mean of the variances of pixels."""
+    """The test takes the root mean variance of pixels over 64 renders, within 12 %."""
     dim = with_lights(ROOM, {"spot": 0.3})
     images = []
     for seed in range(64):

@@ -71,7 +71,7 @@ def test_however_many_there_are(
 
 @pytest.mark.slow
 def test_the_error_falls_where_light_comes_through_glass(context: Context) -> None:
-    """Over the floor under the ball, by a factor of 2.2."""
+    """The error over the floor under the ball falls by a factor of 2.2."""
     scene = ROOMS["a ball of glass"]
     size: dict[str, Any] = {"width": 48, "height": 48, "sampler": "sobol", "particles": 1.0}
     errors = [
@@ -84,7 +84,7 @@ def test_the_error_falls_where_light_comes_through_glass(context: Context) -> No
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["a ball of glass", "lamps of several kinds"])
 def test_the_error_is_the_spread_of_renders(context: Context, name: str) -> None:
-    """Over 64 of them, within 10 %: the root of the mean of the variances of pixels."""
+    """The test takes the root mean variance of pixels over 64 renders, within 10 %."""
     size: dict[str, Any] = {"width": 24, "height": 24, "sampler": "sobol", "particles": 1.0}
     images = [rendered(ROOMS[name], context, 512, seed=seed, **size, **ON) for seed in range(64)]
     spread = np.var([image.radiance for image in images], axis=0, ddof=1).mean()

@@ -83,7 +83,7 @@ def test_the_error_falls_where_a_small_sun_shines_through_glass(context: Context
 
 
 def test_lines_from_the_sky_have_a_density(call_glsl: CallGlsl) -> None:
-    """Over all directions, and the area across them, its integral is 1."""
+    """Its integral over all directions, and the area across them, is 1."""
     scene = under(spot(10, 1, radiance=2.0) + np.float32(0.2), FLOOR, BALL, camera=CAMERA)
     around = ball_around(scene)
     assert around
@@ -118,7 +118,7 @@ def test_particles_carry_the_flux_of_the_sky(call_glsl: CallGlsl, particle_files
 
 @pytest.mark.slow
 def test_the_sky_is_shared_by_three_ways(call_glsl: CallGlsl) -> None:
-    """As the light of a lamp is."""
+    """The light of a lamp is shared in the same way."""
     random = np.random.default_rng(9)
     kappa, rho, scattered = (10.0 ** random.uniform(-3, 3, 5000) for _ in range(3))
     weights = [
@@ -141,7 +141,7 @@ def test_the_sky_is_shared_by_three_ways(call_glsl: CallGlsl) -> None:
 
 @pytest.mark.slow
 def test_where_a_lamp_shines_the_sky_sends_none(context: Context) -> None:
-    """So that pictures with particles, a lamp and a sky keep their bits."""
+    """Pictures with particles, a lamp and a sky therefore keep their bits."""
     things = [FLOOR, BALL, sphere([0, 1, -0.5], 0.1, "lamp")]
     films = []
     for top in ([0.0, 0.0, 0.0], [1.0, 1.0, 1.0]):

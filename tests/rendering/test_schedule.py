@@ -135,7 +135,7 @@ def test_the_first_dispatch_is_small_and_the_loop_limit_holds() -> None:
 
 
 def test_the_next_picture_of_a_kernel_begins_with_what_is_known() -> None:
-    """As a camera that moves wants it: each frame is another picture."""
+    """A camera that moves needs this: each frame is another picture."""
     pace = Pace()
 
     def schedule(tiles: int, rounds: int) -> Schedule:

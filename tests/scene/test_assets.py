@@ -138,7 +138,7 @@ def test_a_link_that_leads_out_is_refused_and_reports_nothing(base: Path, tmp_pa
 
 
 def test_a_link_is_left_by_the_path_as_it_is_written(base: Path) -> None:
-    """As in a URL: `..` takes a name away, wherever the link led."""
+    """The rule is that of a URL: `..` takes a name away, wherever the link led."""
     (base / "maps").symlink_to("models/maps")
     assert AssetReader(AssetFolder(base)).read("maps/../sky.hdr", WHERE).path == "sky.hdr"
 

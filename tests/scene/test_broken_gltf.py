@@ -94,7 +94,7 @@ def survives(content: bytes, seed: int) -> None:
 
 
 def indented(builder: Builder) -> bytes:
-    """With a line for each value: damage meets few at once."""
+    """The file with a line for each value: damage meets few at once."""
     return json.dumps(json.loads(builder.gltf()), indent=0).encode()
 
 

@@ -74,7 +74,7 @@ def test_without_normals_triangles_are_flat() -> None:
 
 
 def test_nodes_move_turn_scale_and_mirror() -> None:
-    """As trimesh has them, with a matrix, with parts, nested."""
+    """The result is trimesh's: with a matrix, with parts, nested."""
     builder = Builder()
     primitive = square(builder)
     turn = {"translation": [1, 2, 3], "rotation": [0.5, 0.5, 0.5, 0.5], "scale": [1, -2, 3]}

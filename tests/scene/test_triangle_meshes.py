@@ -87,7 +87,7 @@ def test_why_a_mesh_is_open() -> None:
 
 
 def test_a_mesh_of_loose_triangles_is_closed_where_they_meet() -> None:
-    """As STL files have it: each triangle with vertices of its own."""
+    """STL files have such meshes: each triangle has vertices of its own."""
     points, faces = icosphere(2)
     loose = checked(points[faces].reshape(-1, 3), np.arange(faces.size).reshape(-1, 3))
     assert loose.opening == ""
@@ -212,7 +212,7 @@ def test_a_matrix_that_leaves_nothing_is_refused(matrix: Any, message: str) -> N
 
 
 def test_a_ray_is_followed_to_the_nearest_triangle() -> None:
-    """As the window picks."""
+    """The window picks by this."""
     ball = glrt.Mesh(*icosphere(3), material="white", scale=(2.0, 1.0, 1.0), translate=(1, 2, 3))
     along = np.array([0.0, 0.0, -1.0])
     assert ball.distance(np.array([1.001, 2.002, 9.0]), along) == pytest.approx(5, rel=0.01)

@@ -34,7 +34,7 @@ def test_tangents_of_a_tube_lead_around_it() -> None:
 
 
 def test_equal_corners_share_theirs_and_no_others() -> None:
-    """Without shared vertices, as of files that list corners: the same to rounding."""
+    """Without shared vertices, as in files that list corners, means are the same to rounding."""
     (points, faces), normals, uv = tube(STEPS)
     expected = mean_tangents(points, faces, normals, uv)[faces].reshape(-1, 3)
     rows = (each[faces].reshape(-1, each.shape[1]) for each in (points, normals, uv))

@@ -106,7 +106,7 @@ AROUND = sphere([0, 0, 0.5], 2, "m")  # the camera is at the origin
 def test_a_camera_within_a_dark_ball_is_reported(
     context: Context, things: list[dict[str, Any]], warns: bool
 ) -> None:
-    """And its picture is black, under a white sky; all others show something."""
+    """Its picture is black under a white sky; all other pictures show something."""
     scene = scene_of(things, MATERIALS, background={"color": [1, 1, 1]})
     found = told(scene)
     assert len(found) == warns
@@ -142,7 +142,7 @@ BLACK = {"color": [0, 0, 0]}
 def test_a_scene_without_light_is_reported_with_the_remedy(
     context: Context, things: list[dict[str, Any]], tables: dict[str, Any], remedy: str
 ) -> None:
-    """And its picture is black, with an error of 0; all others show something."""
+    """Its picture is black, with an error of 0; all other pictures show something."""
     scene = scene_of(things, MATERIALS, **tables)
     found = told(scene)
     assert len(found) == bool(remedy)
@@ -242,7 +242,7 @@ BESIDE = {"min": [1, -1, -6], "max": [2, 1, -4]}
     ],
 )
 def test_glass_that_shares_a_face_is_reported(first: Any, second: Any, shares: bool) -> None:
-    """With a remedy, as of the water in a glass and the air on it."""
+    """The warning has a remedy, for example for the water in a glass and the air on it."""
     materials = MATERIALS | {"open": MATERIALS["m"]}
     things = [
         item if item.get("capped", True) else {**item, "material": "open"}

@@ -51,7 +51,7 @@ def aimed(n: int, seed: int, far: float = 4.0) -> dict[str, Array]:
 
 
 def distances64(scene: Scene, origin: Array, direction: Array) -> Array:
-    """By the row that the kernel has, in float64."""
+    """The distances by the row that the kernel has, in float64."""
     row = packed(scene)["Box"][0]
     axes = np.array([row[f"axis_{name}"] for name in "xyz"], np.float64)
     half = np.array([row[f"half_{name}"] for name in "xyz"], np.float64)

@@ -48,7 +48,7 @@ def aimed(n: int, seed: int, far: float = 4.0) -> dict[str, Array]:
 
 
 def distances64(scene: Scene, origin: Array, direction: Array) -> Array:
-    """By the row that the kernel has, in float64."""
+    """The distances by the row that the kernel has, in float64."""
     row = packed(scene)["Cylinder"][0]
     rest = [row["half_height"], row["radius"], row["is_capped"]]
     numbers = np.concatenate([row["center"], row["axis"], rest]).astype(np.float64)[None]

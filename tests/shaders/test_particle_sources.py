@@ -122,7 +122,7 @@ def under_the_sun(*things: dict[str, Any]) -> Scene:
 
 
 def test_lines_from_the_sun_have_a_density(call_glsl: CallGlsl) -> None:
-    """Over the area across them and the solid angle of the sun its integral is 1."""
+    """Its integral over the area across them and the solid angle of the sun is 1."""
     place = under_the_sun(BALL, FAR_BALL, SOLIDS["a box"])
     around = ball_around(place)
     assert around
@@ -186,7 +186,7 @@ def test_particles_come_from_beyond_the_planes(call_glsl: CallGlsl, particle_fil
 
 @pytest.mark.slow
 def test_the_sun_is_shared_by_three_ways(call_glsl: CallGlsl) -> None:
-    """As the light of a lamp is."""
+    """The light of a lamp is shared in the same way."""
     random = np.random.default_rng(9)
     kappa, rho, scattered = (10.0 ** random.uniform(-3, 3, 5000) for _ in range(3))
     weights = [

@@ -91,7 +91,7 @@ def test_lamps_are_chosen_as_their_density_says(call_glsl: CallGlsl) -> None:
 
 
 def test_rays_from_the_camera_have_a_density(call_glsl: CallGlsl) -> None:
-    """Over the solid angle of the film its integral is 1."""
+    """Its integral over the solid angle of the film is 1."""
     towards = directions(400_000)
     place = scene("quad")
     density = call_glsl("pdf_camera(d)", scene=place, options=ON, d=towards).astype(np.float64)

@@ -195,7 +195,7 @@ def test_samples_follow_their_density(call_glsl: CallGlsl, look: Look, cosine: f
 @pytest.mark.parametrize("alpha", [0.1, 0.25, 1.0])
 @pytest.mark.parametrize("cosine", [1.0, 0.5, 0.1])
 def test_tables_are_the_integral_of_facets(alpha: float, cosine: float) -> None:
-    """By Gauss and Legendre's rule over the directions of light, which knows no samples."""
+    """The integral is by Gauss and Legendre's rule over directions of light, without samples."""
     nodes, weights = np.polynomial.legendre.leggauss(600)
     z, phi = (nodes + 1) / 2, 2 * np.pi * (np.arange(720) + 0.5) / 720
     r = np.sqrt(1 - z * z)[:, None]

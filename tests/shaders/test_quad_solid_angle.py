@@ -140,7 +140,7 @@ def test_samples_are_even_over_strips_and_along_them(
 @pytest.mark.parametrize("place", POINTS)
 @pytest.mark.parametrize("name", LAMPS)
 def test_densities_sum_up_to_the_solid_angle(call_glsl: CallGlsl, name: str, place: str) -> None:
-    """Over samples, 1 / pdf is an estimate of it."""
+    """The mean of 1 / pdf over samples estimates it."""
     u = unit_square(256)
     u = np.stack([(1 - np.cos(np.pi * u[:, 0])) / 2, u[:, 1]], axis=-1)  # finer at the ends
     weight = np.pi / 2 * np.sqrt(4 * u[:, 0] * (1 - u[:, 0]))

@@ -121,7 +121,7 @@ def test_each_point_is_uniform_over_pixels_and_blocks(
 
 @pytest.mark.parametrize("block", BLOCKS)
 def test_draws_of_one_sample_are_independent(call_glsl: CallGlsl, block: int) -> None:
-    """Over blocks: within one, two dimensions of a point are a net, which is what they are for."""
+    """The test goes over blocks: within one, two dimensions of a point are a net by design."""
     n = 2**17
     pixel, sample = np.arange(n) % 4096, block * (np.arange(n) // 4096) + 5
     numbers = np.concatenate([draws(call_glsl, block, pixel, sample, k) for k in range(4)], axis=1)

@@ -250,7 +250,7 @@ def unit(vector: Any) -> Any:
 def test_tangents_of_corners_go_before_those_of_triangles(
     call_glsl: CallGlsl, count: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """As a file gives them: upwards here, in a mesh that is used once, or twice."""
+    """The file's tangents count: upwards here, in a mesh that is used once, or twice."""
     monkeypatch.setattr(instancing, "LEAST_SAVED", 1)
     corners = np.array([[-2.0, -2, 0], [2, -2, 0], [0, 2, 0]])
     uv, along = np.tile(corners[:, :2] * [1, -1], 2), np.tile([0.0, 2, 0], (3, 1))

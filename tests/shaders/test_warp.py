@@ -96,7 +96,7 @@ def test_a_local_vector_comes_back_from_the_world(call_glsl: CallGlsl) -> None:
 
 
 def test_products_are_summed_in_one_order(call_glsl: CallGlsl) -> None:
-    """By every driver: Mesa 22 and Mesa 25 differ in their own `dot` and `length`."""
+    """Every driver must use that order: the `dot` and `length` of Mesa 22 and Mesa 25 differ."""
     rng = np.random.default_rng(11)
     a, b = rng.normal(size=(2, 20_000, 3)).astype(np.float32)
     products = a * b

@@ -7,7 +7,7 @@ _AXIS = "axis = [0, -1, 0], "
 
 
 def _cone(name: str, keys: str, *says: str) -> BadScene:
-    """With a cone of these keys at the lamp of the good scene."""
+    """The good scene with a cone of these keys at its lamp."""
     return bad(name, _EMISSION, f"{_EMISSION}\ncone = {keys}", *says)
 
 

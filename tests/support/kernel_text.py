@@ -12,7 +12,7 @@ from tests.support.packed import packed
 def written_for(
     scene: str = "cornell", tier: Tier = "generic", uniform_bytes: int = MOST_UNIFORM_BYTES
 ) -> dict[str, str]:
-    """By its name, as `Source` takes it."""
+    """The text by its name, as `Source` takes it."""
     return {FILE: text_of(packed(load(scene)), tier, uniform_bytes)}
 
 

@@ -50,7 +50,7 @@ def flat(radiance: float, stderr: float, samples: int, size: int = 16) -> Image:
 
 
 def red(image: Image) -> Image:
-    """Without the other channels."""
+    """The image without its other channels."""
     only = np.array([1, 0, 0], np.float32)
     return replace(image, radiance=image.radiance * only, stderr=image.stderr * only)
 

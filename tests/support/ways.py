@@ -274,7 +274,7 @@ def resume_denoised() -> None:
 
 
 def denoised_in_time() -> None:
-    """With fewer samples than it takes, the picture is the plain one."""
+    """The picture is the plain one if it has fewer samples than denoising needs."""
     options = [*OPTIONS[Way.DENOISE], *OPTIONS[Way.TIME]]
     image = plain(options)
     assert (image.denoising is None) == (image.samples < 64)

@@ -161,7 +161,7 @@ def test_the_smoothest_rough_metal_is_as_bright_as_a_mirror(context: Context, me
 
 
 def test_glass_holds_back_what_the_bounce_limit_cuts_off(context: Context) -> None:
-    """With D = bounces + 1 segments: 1 - (1 - F) F^(D-2), at an impact of 0.6 radii."""
+    """D = bounces + 1 segments leave 1 - (1 - F) F^(D-2), at an impact of 0.6 radii."""
     reflectance = fresnel_at_impact(0.6, 1.5)
     assert reflectance == pytest.approx(0.043895, abs=1e-6)
     ball = [sphere([0, 0, 0], 1, "glass")]

@@ -165,7 +165,7 @@ def test_a_pane_passes_what_two_faces_do(context: Context) -> None:
 
 
 def test_a_pane_lets_a_picture_through_unmoved(context: Context) -> None:
-    """As a slab that is a thousandth as thick; its bounces are one for two or more."""
+    """It acts as a slab a thousandth as thick; one of its bounces stands for two or more."""
     camera = {"position": [0, 0.6, 4], "look_at": [0, 0.3, 0], "fov": 45}
     rest = [plane([0, -1, 0], [0, 1, 0], "floor"), sphere([0, 0, -1], 0.7, "floor")]
     materials = {"floor": MATTE, "pane": glass(thin=True), "slab": glass()}

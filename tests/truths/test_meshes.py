@@ -108,7 +108,7 @@ def room(of_triangles: bool) -> Scene:
 @pytest.mark.slow
 @pytest.mark.parametrize("method", METHODS)
 def test_a_room_of_triangles_has_the_picture_of_one_of_quads(context: Context, method: str) -> None:
-    """By the same random numbers: what is left is rounding, which few paths feel."""
+    """Both use the same random numbers: only rounding is left, which changes few paths."""
     settings: dict[str, Any] = {"method": method, "bounces": 6, **SMALL}
     ours, theirs = (
         rendered(room(of_triangles), context, 64, **settings).radiance

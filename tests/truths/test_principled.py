@@ -114,7 +114,7 @@ def test_methods_agree_on_principled_surfaces(context: Context) -> None:
 
 @pytest.mark.slow
 def test_methods_agree_under_sky_and_sun(context: Context) -> None:
-    """Whose light is weighed against all lobes at once."""
+    """The light of both is weighed against all lobes at once."""
     scene = sunny()
     naive, nee, mis = (
         rendered(scene, context, samples, method=method, seed=seed, bounces=3)

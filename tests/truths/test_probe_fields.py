@@ -45,7 +45,7 @@ def lit_by(context: Context) -> Iterator[ProbeTracer]:
 
 
 def test_light_that_is_linear_in_direction_is_integrated(context: Context) -> None:
-    """By 64 directions with the weights of a ratio, which a constant passes unharmed."""
+    """The integral uses 64 directions with weights of a ratio; a constant passes unchanged."""
     with lit_by(context) as tracer:
         found = inner(tracer, "probe_light")[..., 0]
     expected = irradiance(directions(LIGHT_MAP - 2))

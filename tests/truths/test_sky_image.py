@@ -120,7 +120,7 @@ def test_a_floor_gathers_the_upper_half(context: Context, method: str, rotation:
 
 
 def gathered(pixels: Array) -> Array:
-    """Over even steps of cos^2 and of the azimuth, which hold as much light each."""
+    """The sum over even steps of cos^2 and of the azimuth: each step has equal weight."""
     steps = 400
     middle = (np.arange(steps) + 0.5) / steps
     squared, turns = (part.ravel() for part in np.meshgrid(middle, middle))

@@ -129,7 +129,7 @@ def test_a_sun_of_one_pixel_lights_a_floor_as_a_quadrature_says(
 
 @pytest.mark.slow
 def test_methods_agree_under_a_small_sun(context: Context) -> None:
-    """Over rough glass, a mirror and a matte floor, with shadows."""
+    """The sun shines on rough glass, a mirror and a matte floor, with shadows."""
     things = [FLOOR, sphere([0, 0.3, 0], 0.3, "mirror"), sphere([0.7, 0.3, 0], 0.3, "frost")]
     pixels = np.full((32, 64, 3), 0.5, np.float32)
     pixels[3:7, 18:24] = 10.0

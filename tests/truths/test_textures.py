@@ -98,7 +98,7 @@ def test_an_even_texture_gives_the_bits_of_its_value(
 
 
 def test_an_even_emission_is_found_by_scattering_alone(context: Context) -> None:
-    """With the bits of the method that finds all lamps so."""
+    """The picture has the bits of the method that finds all lamps by scattering."""
     plain, textured = PLAIN_AND_EVEN["emission"]
     things = [sphere([-1, 0, 0], 0.6, "m"), plane([0, -1, 0], [0, 1, 0], "floor")]
     scenes = [scene_of(things, {"m": one, "floor": MATTE}, EYE) for one in (plain, textured)]
@@ -158,7 +158,7 @@ SUN = {"elevation": 90.0, "angle": 0.01, "irradiance": [np.pi] * 3}
 
 @pytest.mark.slow
 def test_a_bent_normal_is_lit_as_the_inclined_plane(context: Context) -> None:
-    """By a sun straight above: albedo times the cosine, wherever the bend leads."""
+    """A sun straight above gives albedo times the cosine, wherever the bend leads."""
     image = np.ones((1, 1, 4))
     image[..., :3] = (np.array([0.48, -0.36, 0.8]) + 1) / 2
     material = principled(color=[0.5] * 3, specular=0.0, normal={"image": "n.png"})

@@ -179,7 +179,7 @@ def test_relit_lamps_are_denoised_by_their_weights(
 
 
 def dimmed(scene: Scene) -> Scene:
-    """With lamps of a quarter of their light."""
+    """The scene with lamps of a quarter of their light."""
     materials = {
         name: material.model_copy(update={"emission": tuple(e / 4 for e in material.emission)})
         if isinstance(material, Light)

@@ -86,7 +86,7 @@ def test_where_no_process_can_be_started_the_window_goes_on(opened: Opening, clo
 def test_a_window_that_stood_still_once_does_not_again(
     opened: Opening, clock: Clock, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """As where the driver's cache is not shared after all."""
+    """A window stands still where the driver's cache is not shared after all."""
     session = opened(Stage())
     bake = Renderer.bake
 

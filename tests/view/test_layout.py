@@ -10,7 +10,7 @@ from glrt.view.panels import layout
 
 
 def test_a_part_without_a_size_yet_is_left_alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    """As after the start with a layout that was saved: to give it a size of 0 ends the window."""
+    """This happens after the start with a saved layout: a size of 0 would end the window."""
     sizes: dict[int, ImVec2] = {}
     io = SimpleNamespace(display_size=ImVec2(800, 600))
     internal = SimpleNamespace(dock_builder_set_node_size=sizes.__setitem__)

@@ -60,7 +60,7 @@ def test_keys_that_a_file_does_not_name_are_the_usual_ones() -> None:
 
 
 def test_a_usual_key_that_was_chosen_for_something_else_leaves_its_action() -> None:
-    """As Ctrl-S, which saved pictures once, in files of then."""
+    """Ctrl-S is such a key: old files of preferences use it to save pictures."""
     bindings = Preferences(bindings={"save": ("ctrl+s",), "home": ("w",)}).bindings
     assert (bindings["save"], bindings["save_scene"]) == (("ctrl+s",), ())
     assert (bindings["home"], bindings["forward"]) == (("w",), ("up_arrow",))

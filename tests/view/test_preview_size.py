@@ -42,7 +42,7 @@ def clock() -> Clock:
 
 
 def learnt(clock: Clock, whole: float) -> Preview:
-    """That a sample of the whole frame takes `whole` seconds."""
+    """Learn that a sample of the whole frame takes `whole` seconds."""
     preview = Preview(clock)
     preview.record(whole, PIXELS)
     return preview
@@ -84,7 +84,7 @@ def test_samples_have_a_share_of_the_frame_however_long_edits_take(clock: Clock)
 
 
 def test_sizes_do_not_alternate_when_times_vary(clock: Clock) -> None:
-    """By a tenth to both sides, more than from one frame to the next on a quiet machine."""
+    """Times vary by a tenth to both sides: more than between frames on a quiet machine."""
     preview, seen = learnt(clock, 0.3), list[float]()
     for n in range(60):
         preview.begin(PIXELS, FRAME)

@@ -39,7 +39,7 @@ EDITS: dict[str, Callable[[Session], None]] = {
 
 
 def learn(session: Session, clock: Clock, monkeypatch: pytest.MonkeyPatch) -> None:
-    """That a sample takes twice the time of a frame of 0.01 s."""
+    """Learn that a sample takes twice the time of a frame of 0.01 s."""
     start(session)
     clock.step = 0.02
     with monkeypatch.context() as patch:

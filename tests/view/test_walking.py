@@ -29,7 +29,7 @@ class Walker(CameraMoves):
 
 @pytest.mark.parametrize("way", [(0, 0, 1), (0, 0, -1), (1, 0, 0), (0, 1, 0)])
 def test_a_walk_keeps_its_speed_and_the_distance_to_the_pivot(way: tuple[int, int, int]) -> None:
-    """So it goes past what was the pivot: steps towards it do not get shorter."""
+    """A walk goes past the former pivot: steps towards it do not get shorter."""
     walker = Walker()
     start, reach = walker.camera, walker.reach
     for _ in range(STEPS):

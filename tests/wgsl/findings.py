@@ -50,7 +50,7 @@ class Suspicion(NamedTuple):
 
 
 class SwappedTwice(Tracer):
-    """By the thesis's text: the target is the same in every frame, the source never written."""
+    """The thesis's text taken literally: one target in every frame, the source never written."""
 
     def swap(self) -> None:
         """Once at the start of a frame and once at the end of the last one."""

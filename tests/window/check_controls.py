@@ -84,7 +84,7 @@ def every_control_costs_what_it_says(hand: Hand) -> None:
 
 @check
 def every_control_of_the_panel_is_moved_here(hand: Hand) -> None:
-    """So that one that is added is added to the checks, too."""
+    """A control that is added must therefore be added to the checks, too."""
     drawn: set[str] = set()
     inner = fields.edited
 

@@ -45,7 +45,7 @@ def both_gather_at_equal_samples(hand: Hand) -> None:
 
 @check
 def both_gather_in_equal_time(hand: Hand) -> None:
-    """By a clock of their own: A's frames take three times as long."""
+    """The test has its own clock: A's frames take three times as long."""
     pair, session = keep_and_go_on(hand), hand.session
     assert pair.slot
     other, turns = pair.slot.session, dict[Session, int]()

@@ -72,7 +72,7 @@ def test_w3_slopes_and_noise_of_a_still_picture(
 
 
 def test_w5_a_step_of_light_is_followed_in_a_few_frames() -> None:
-    """By the published predictor at once, and beyond it; by the delayed one later."""
+    """The published predictor follows at once, and overshoots; the delayed one follows later."""
     published, delayed = step_response(False), step_response(True)
     assert published[1] < 0.75
     assert published[4] == pytest.approx(1, abs=0.12)
@@ -213,7 +213,7 @@ def test_the_shader_does_what_the_twin_does(
 def test_a_model_that_begins_with_a_mean_of_samples_holds_on_to_it(
     ctx: moderngl.Context, first: int
 ) -> None:
-    """As if they had come one by one, all of them alike: along what was seen, and no other way."""
+    """It is as if equal samples had come one by one: certain only in the directions seen."""
     rng = np.random.default_rng(11)
     samples = rng.gamma(3, 0.2, (6, 40, 3)).astype(np.float32)
     twin = FactoredWrls(samples[0], frames=first)

@@ -19,7 +19,7 @@ CAMERA = {"position": [0.0, 0.0, 1.0], "look_at": [0.0, 0.0, 0.0], "fov": FOV}
 
 @pytest.mark.parametrize(("right", "down"), [(0, 0), (3, 0), (-5, 2), (0, -7)])
 def test_a_pan_by_whole_pixels_keeps_every_bit(context: Context, right: int, down: int) -> None:
-    """And what comes into sight has no history: so many columns and rows."""
+    """The columns and rows that come into sight have no history."""
     history = noise(SIZE)
     found = brought(wall(), wall(right * PIXEL, -down * PIXEL), history, context)
     columns, rows = np.arange(SIZE[0]) + right, np.arange(SIZE[1]) + down
@@ -31,7 +31,7 @@ def test_a_pan_by_whole_pixels_keeps_every_bit(context: Context, right: int, dow
 
 @pytest.mark.parametrize("share", [0.25, 0.5])
 def test_between_pixels_it_is_exact_for_a_parabola(context: Context, share: float) -> None:
-    """As Catmull and Rom's spline is, and no mean of neighbours."""
+    """Catmull and Rom's spline is exact there, but no mean of neighbours is."""
     x, y = np.meshgrid(np.arange(SIZE[0]) + 0.5, np.arange(SIZE[1]) + 0.5)
     history = np.ones((SIZE[1], SIZE[0], 4))
 
@@ -113,7 +113,7 @@ def test_another_object_in_its_place_gives_nothing(context: Context) -> None:
 
 
 def test_a_surface_that_has_turned_gives_nothing(context: Context) -> None:
-    """By more than 25 degrees, at the same place: the axis about which it turns."""
+    """It turns by more than 25 degrees; the place on the axis of the turn stays the same."""
 
     def scene(degrees: float) -> Scene:
         angle = math.radians(degrees)
@@ -128,7 +128,7 @@ def test_a_surface_that_has_turned_gives_nothing(context: Context) -> None:
 
 
 def test_a_surface_that_has_come_nearer_gives_nothing(context: Context) -> None:
-    """By more than 2 % of its distance."""
+    """It has come nearer by more than 2 % of its distance."""
 
     def scene(nearer: float) -> Scene:
         return scene_of([plane([0, 0, nearer], [0, 0, 1], "matte")], {"matte": MATTE}, CAMERA)

@@ -65,7 +65,7 @@ def test_the_first_views_count_the_same(ctx: moderngl.Context, frames: int) -> N
 
 
 def test_later_ones_forget(ctx: moderngl.Context) -> None:
-    """So that the number of samples is that of the mean, and then that of the exponential one."""
+    """The number of samples is first that of the mean, then that of the exponential mean."""
     assert weights_of(ctx, 40, 1.0) == pytest.approx(taa_weights(40, 0.1), abs=1e-6)
     assert 1 / np.square(taa_weights(400, 0.1)).sum() == pytest.approx(19.0, rel=1e-3)
 
@@ -93,7 +93,7 @@ def screens(options: TaaOptions, scenes: list[Scene], context: Context) -> tuple
 
 
 def test_a_still_view_is_the_mean_that_the_weights_say(context: Context) -> None:
-    """So its variance falls as 1 / sum of squared weights."""
+    """Its variance therefore falls as 1 / sum of squared weights."""
     shown, films = screens(TaaOptions(reach=ANY), [wall(**SKY)] * 15, context)
     mean = np.einsum("n,nhwc->hwc", taa_weights(15, 0.1), films)
     np.testing.assert_allclose(shown[-1], mean, rtol=2e-5)
@@ -137,7 +137,7 @@ def test_history_is_brought_to_the_edge_of_the_box_on_its_way_to_the_middle(
 
 @pytest.mark.parametrize("reach", [1.0, ANY])
 def test_the_pass_does_what_the_twin_does(context: Context, reach: float) -> None:
-    """Also where there is no history, and at the edges of the picture."""
+    """This holds also where there is no history, and at the edges of the picture."""
     light, mean, history = noise(SIZE, 1), noise(SIZE, 2), noise(SIZE, 3)
     history[..., :3] *= 2
     history[:3, :, 3] = 0

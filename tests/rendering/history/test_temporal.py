@@ -147,7 +147,7 @@ def test_a_film_holds_no_history_and_a_still_camera_ends_with_it(
 
 @pytest.mark.parametrize("mode", ["reproject", "taa"])  # of wrls: tests/rendering/history
 def test_history_that_is_seen_to_be_wrong_is_not_believed(context: Context, mode: Mode) -> None:
-    """Without noise: a wall under an even sky that becomes three times as bright."""
+    """The case has no noise: a wall under an even sky that becomes three times as bright."""
     dim, bright = wall(), wall(background={"color": [3.0, 3.0, 3.0]})
     assert np.ptp(film_of(dim, context)) < 1e-6  # it is as bright everywhere
     *_, before, shown = pictures((*[dim] * 8, bright), context, mode)
@@ -156,7 +156,7 @@ def test_history_that_is_seen_to_be_wrong_is_not_believed(context: Context, mode
 
 
 def test_under_another_light_history_counts_for_little(context: Context) -> None:
-    """As many samples as OTHER_LIGHT says, of many: it is wrong by an unknown amount."""
+    """It keeps as many of its samples as OTHER_LIGHT says: its error is unknown."""
     scene = wall(**SKY)
     renderer = Renderer(scene, settings(scene), context)
     temporal = Temporal(context.gl)

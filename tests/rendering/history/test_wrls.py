@@ -96,7 +96,7 @@ def test_the_film_is_reconstructed_within_objects_alone(context: Context, sample
 
 
 def test_a_pixel_without_a_sample_shows_what_its_model_predicts(context: Context) -> None:
-    """And its model stays; without a model there is none."""
+    """Its model stays. A pixel without a model still has none."""
     wrls, frames = Wrls(context.gl), films(3, 1.0)
     frames[2][4, 4] = 0
     with view(wall(), context, SIZE) as here:
@@ -263,7 +263,10 @@ def test_an_orbit_is_clearer(context: Context, predictor: Predictor) -> None:
 def test_a_view_under_other_light_is_right_once_it_has_samples(
     context: Context, predictor: Predictor
 ) -> None:
-    """Without noise, dimmed to a quarter after sixteen samples: within 2 % after four samples."""
+    """The light has no noise, and dims to a quarter after sixteen samples.
+
+    The picture is right within 2 % after four samples.
+    """
     dim = wall(background={"color": [0.25, 0.25, 0.25]})
     scenes = (*[wall()] * 16, *[dim] * 4)
     size = {"width": SIZE[0], "height": SIZE[1], "sampler": "independent"}

@@ -47,7 +47,7 @@ def heuristic(pdf: float, other: float) -> float:
 
 
 def test_densities_and_weights_of_both_strategies(cornell: list[PixelPaths]) -> None:
-    """By area on the one lamp and by cosine at matte surfaces; the two weights add up to 1."""
+    """Densities are by area on the one lamp, by cosine at matte surfaces; weights add up to 1."""
     found = set()
     for scene, path, light in lights(cornell):
         at, shape = path.vertices[light.vertex], scene.objects[light.object or 0]
@@ -92,7 +92,7 @@ def test_what_is_added_is_weighted_radiance_over_density(cornell: list[PixelPath
 
 
 def test_hidden_lamps_are_reported(cornell: list[PixelPaths]) -> None:
-    """As shapes stand between the vertex and the point that was sampled."""
+    """A lamp is hidden if shapes stand between the vertex and the point that was sampled."""
     hidden = {True: 0, False: 0}
     for scene, path, light in lights(cornell):
         if light.strategy != "light sampling" or (not any(light.added) and not light.hidden):

@@ -38,7 +38,7 @@ def test_albedo_is_shaded_by_the_angle_to_the_eye(context: Context) -> None:
 
 
 def shaded(albedo: np.ndarray, normal: np.ndarray, camera: dict[str, object]) -> np.ndarray:
-    """As sRGB, (H, W, 3)."""
+    """The shaded picture as sRGB, (H, W, 3)."""
     x, y = ((np.arange(side) + 0.5) / side * 2 - 1 for side in SIZE)
     right, up, forward = (np.asarray(camera[n], float) for n in ("right", "up", "forward"))
     tan_x, tan_y = (float(str(camera[n])) for n in ("tan_x", "tan_y"))
