@@ -5,4 +5,4 @@ import pytest
 
 @pytest.fixture(autouse=True)
 def keep_twins(twins_stay: None) -> None:
-    """In every test of this folder."""
+    """Keep twins in every test of this folder."""

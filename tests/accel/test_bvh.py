@@ -70,7 +70,7 @@ def test_boxes_that_have_moved_keep_their_order_and_every_box_holds_what_lies_be
 def test_a_camera_that_moves_builds_no_tree_again(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """To the bits of a render from there."""
+    """The picture has the bits of a render from there."""
     rng = np.random.default_rng(5)
     balls = [sphere(p.tolist(), 0.3, "m") for p in rng.uniform(-2, 2, (200, 3))]
     near, far = (

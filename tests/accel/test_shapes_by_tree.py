@@ -152,7 +152,7 @@ def test_trees_of_few_levels(
 def test_children_that_a_node_does_not_have_are_not_visited(
     call_glsl: CallGlsl, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """From so far that every box is met: they would lead beyond the last slot, and back."""
+    """Rays from so far meet every box: such children would lead beyond the last slot, and back."""
     monkeypatch.setattr(facts, "TREE_FROM", 1)
     scene = scene_of([disk([k, k, k], [1, 1, 1], 0.5, "white") for k in (0, 3)], MATERIALS)
     shapes = [item for item in scene.objects if isinstance(item, Disk)]
@@ -227,7 +227,7 @@ def test_a_crowd_scaled_by_a_power_of_two_keeps_its_bits(context: Context) -> No
 def test_a_camera_that_moves_builds_no_tree(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """To the bits of a render from there, and from far away."""
+    """The picture has the bits of a render from there, and from far away."""
     scene = crowd(60, 23)
     with rendering(scene, context, **SETTINGS) as renderer:
         renderer.render(2)

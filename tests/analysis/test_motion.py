@@ -72,7 +72,7 @@ def test_looks_are_frames_of_the_sequence(name: str) -> None:
 
 @pytest.mark.slow
 def test_history_makes_an_orbit_clearer_and_figures_are_the_same_again(context: Context) -> None:
-    """At 24 x 24 pixels: more than twice as clear after some frames."""
+    """At 24 x 24 pixels it is more than twice as clear after some frames."""
     scene = load("cornell")
     settings = settings_for(scene.render, width=24, height=24)
     modes: tuple[Mode, ...] = ("reset", "reproject")
@@ -169,7 +169,7 @@ def test_the_command_writes_charts_and_a_page(tmp_path: Path) -> None:
 
 
 def test_live_probes_follow_a_light_step_frame_by_frame(context: Context) -> None:
-    """In a closed room that shines with 1, then with 1/4: what one update keeps, and the rest."""
+    """A closed room shines with 1, then with 1/4: an update keeps a share, and adds the rest."""
     scene, kept, dim = room("sphere", 0.5), 0.9, 0.25
     frames = light_step(scene, 8, 3, dim)
     way = {"width": 8, "height": 8, "method": "ddgi", "sampler": "sobol", "probes": 2}

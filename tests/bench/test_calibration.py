@@ -12,7 +12,7 @@ from tests.support.alarms import assert_near
 
 
 class Noise:
-    """In place of a renderer: pictures of normal noise that claim a share of it."""
+    """A stand-in for a renderer: pictures of normal noise that claim a share of it."""
 
     def __init__(self, claimed: float) -> None:
         self.claimed = claimed

@@ -54,7 +54,7 @@ print(json.dumps(found))
 
 @pytest.fixture
 def driver(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """In place of a way: crashes with the first, and paints by the others."""
+    """A stand-in for a way: it crashes with the first, and paints by the others."""
     program = tmp_path / "driver.py"
     program.write_text(DRIVER)
     monkeypatch.setattr(gpu, "PROGRAM", (sys.executable, str(program)))

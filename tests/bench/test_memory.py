@@ -7,7 +7,7 @@ from bench.memory import Row, main, measure, table
 
 @pytest.mark.slow
 def test_film_and_picture_account_for_what_a_larger_picture_takes() -> None:
-    """Up to what bands of rows and the writing of files take: 48 MiB, of 240 here."""
+    """The exception is memory for bands of rows and for writing files: 48 MiB, of 240 here."""
     row = measure(1280, "sobol")
     assert row.film == 6 * 16 * 1280**2
     assert row.base > 50 * 2**20, "an interpreter with numpy and a driver"

@@ -1,4 +1,4 @@
-"""Whatever a user gets wrong: exit code 2, one paragraph that names it, and nothing left behind."""
+"""A user's mistake gives exit code 2, one paragraph that names it, and leaves nothing behind."""
 
 from pathlib import Path
 

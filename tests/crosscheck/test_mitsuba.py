@@ -200,7 +200,7 @@ def test_the_roughest_metal_looks_the_same_to_mitsuba(context: Context, mitsuba:
 
 
 def test_the_inside_of_balls_looks_the_same_to_mitsuba(context: Context, mitsuba: Peer) -> None:
-    """From within glass: a matte wall and a lamp from inside, and the surface of water."""
+    """Seen from within glass: a matte wall and a lamp from inside, and the surface of water."""
     scene = scene_of(
         [
             sphere([0, 0, 0], 5.0, "white"),
@@ -264,7 +264,7 @@ def test_scene_looks_the_same_to_mitsuba(context: Context, mitsuba: Peer, name: 
 
 @pytest.mark.slow
 def test_the_program_writes_what_compare_reads(tmp_path: Path) -> None:
-    """In its slow mode, which needs no LLVM, and from the command line."""
+    """It runs in its slow mode, which needs no LLVM, and from the command line."""
     if find_spec("mitsuba") is None:
         pytest.skip(NO_WHEEL)
     file = tmp_path / "sky.exr"

@@ -97,7 +97,7 @@ def test_of_a_blur_it_is_bias_and_variance_in_closed_form(counts: tuple[int, int
 
 @pytest.mark.slow
 def test_of_the_filter_and_its_blend_it_is_the_true_error() -> None:
-    """Against the truth of each draw: nothing is known of the error in closed form."""
+    """The test compares with the truth of each draw: the error has no closed form."""
     rng, truth = np.random.default_rng(3), truth_with_an_edge(16)
     found = []
     for _ in range(60):

@@ -43,7 +43,7 @@ def true_error(observations: int, hits: float) -> float:
 @pytest.mark.parametrize("hits", [0.003, 0.03, 0.3])
 @pytest.mark.parametrize("observations", [8, 16, 64, 256])
 def test_rare_bright_samples_count_by_what_is_around_them(observations: int, hits: float) -> None:
-    """Within a factor of two, where each pixel's own radiance made it a third at most."""
+    """The error is right within a factor of two; by each pixel's own radiance, a third at most."""
     pictures = [flashing(observations, hits, seed) for seed in range(16)]
     truth = true_error(observations, hits)
     squares = [(estimated_error(*picture) or 0) ** 2 for picture in pictures]

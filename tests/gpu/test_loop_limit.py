@@ -49,7 +49,7 @@ def test_a_frame_that_lost_samples_is_done_again_with_fewer_at_once(
 def test_a_limit_that_is_measured_late_leaves_the_context_as_it_was(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """For paths so long that the known limit may not do, it is measured on the way."""
+    """Paths so long that the known limit may not do have it measured on the way."""
     monkeypatch.setattr(driver_checks, "_limits", {})
     assert rendered(load("weekend"), context, 1, bounces=1000).samples == 1
 

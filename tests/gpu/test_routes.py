@@ -83,7 +83,7 @@ def by_window(tmp_path_factory: pytest.TempPathFactory) -> Pictures:
 
 
 def assert_same_pictures(a: Pictures, b: Pictures, name: str) -> None:
-    """To the bit among software drivers; else far below the noise."""
+    """They are the same to the bit among software drivers; otherwise far below the noise."""
     if a["is_software"] and b["is_software"]:
         assert same_bits(a[f"{name} 0"], b[f"{name} 0"])
     difference = np.square(a[f"{name} 0"] - b[f"{name} 0"]).mean()

@@ -39,7 +39,7 @@ def bits(scene: Scene, context: Context, tier: Tier, sampler: Sampler) -> bytes:
 def test_constants_uniform_blocks_and_textures_give_the_same_bits(
     name: str, sampler: Sampler, context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """On the software drivers; a GPU may round otherwise."""
+    """This holds on the software drivers; a GPU may round otherwise."""
     if not context.is_software:
         pytest.skip("bits are promised on software drivers alone")
     scene = load(name)

@@ -158,7 +158,7 @@ def test_a_picture_keeps_those_of_its_aovs_that_are_wanted(image: Image) -> None
 
 
 def test_the_command_writes_what_is_listed_and_renders_it_again(tmp_path: Path) -> None:
-    """From the recipe in a PNG, which holds no AOV itself."""
+    """It reads the recipe in a PNG, which holds no AOV itself."""
     names = [tmp_path / f"a.{suffix}" for suffix in ("exr", "png")]
     words = ["--width", "10", "--height", "6", "--samples", "20", "--aov", "object, depth"]
     outputs = [word for name in names for word in ("-o", str(name))]

@@ -38,7 +38,7 @@ def parts(count: int, numbers: Sequence[int] = (), of: Render = RENDER) -> list[
 
 
 def assert_near(found: Image, truth: Image) -> None:
-    """To the rounding of the parts' means to float32; counts to the last one."""
+    """Values agree to the rounding of the parts' means to float32, and counts exactly."""
     pairs = [(found.radiance, truth.radiance), (found.stderr, truth.stderr)]
     pairs += [*zip(state_of(found), state_of(truth), strict=True)]
     assert [*found.aovs] == [*truth.aovs]
@@ -169,7 +169,7 @@ def test_parts_from_files_are_those_from_memory(tmp_path: Path) -> None:
 
 
 def test_parts_by_several_drivers_are_named_together() -> None:
-    """In alphabetical order, whichever came first."""
+    """Their names are in alphabetical order, whichever came first."""
     first, second, third = parts(3)
     drivers = {"renderer": "zink", "pipeline": "fragment"}
     other = replace(first, recipe=recipe_of(first).model_copy(update=drivers))

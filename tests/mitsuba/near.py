@@ -24,7 +24,7 @@ EXTENT = 1000.0  # from the origin to the farthest point of a shape, planes asid
 
 
 class Near(NamedTuple):
-    """From the coordinates of a scene to Mitsuba's."""
+    """The map from the coordinates of a scene to Mitsuba's."""
 
     origin: Vector
     factor: float

@@ -85,7 +85,7 @@ def drawn(way: Way, scenes: Sequence[str]) -> dict[str, NDArray[np.float32]]:
 
 
 def draw() -> None:
-    """In the process: write the pictures by route and pipeline into a file."""
+    """Write the pictures by route and pipeline into a file: the part that the process runs."""
     route, pipeline, file, *scenes = sys.argv[1:]
     context = open_context(route, pipeline)  # type: ignore[arg-type]
     pictures: dict[str, Any] = {"renderer": f"{context.renderer}, OpenGL {context.version}"}

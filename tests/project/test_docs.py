@@ -73,7 +73,7 @@ def test_tests_that_are_named_exist(page: Path) -> None:
 
 
 def test_pages_that_source_files_name_exist() -> None:
-    """In comments and docstrings, by their path."""
+    """Comments and docstrings name pages by their path."""
     sources = [
         path
         for name in ("glrt", "bench", "shaders_glsl", "tests", "tools", "scenes")

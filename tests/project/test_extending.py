@@ -225,7 +225,7 @@ def test_the_steps_suffice(section: str, tmp_path: Path) -> None:
     [(section, n) for section in PROGRAMS for n in range(len(steps_of(section)))],
 )
 def test_a_step_that_is_left_out_is_an_error(section: str, left_out: int, tmp_path: Path) -> None:
-    """At import, when the kernel compiles, or in the picture: nothing falls back to a default."""
+    """It fails at import, at compilation, or in the picture: nothing falls back to a default."""
     steps = steps_of(section)
     if steps[left_out].file.endswith("__init__.py"):
         pytest.skip("tests/project/test_architecture.py reads the lists of modules")

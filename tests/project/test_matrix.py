@@ -25,7 +25,7 @@ def first() -> dict[str, Any]:
     "way", [Way("osmesa", "fragment"), Way("window", "fragment", "OpenGL 4.1")]
 )
 def test_every_way_draws_the_same_bits(first: dict[str, Any], way: Way) -> None:
-    """On software drivers; elsewhere far below the noise."""
+    """This holds on software drivers; elsewhere differences are far below the noise."""
     if way.route == "osmesa":
         needs_osmesa()
     else:

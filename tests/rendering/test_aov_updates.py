@@ -235,7 +235,7 @@ def test_aovs_of_a_scene_that_grew_lose_no_sample(context: Context) -> None:
 def test_a_resumed_picture_has_the_aovs_of_one_render(
     context: Context, tmp_path: Path, first: int
 ) -> None:
-    """To the byte of the file."""
+    """The files are the same to the byte."""
     options: dict[str, Any] = {**SMALL, "samples": 64, "aov": ALL}
     begun, on, whole = (Renderer(heap(), context=context, **options) for _ in range(3))
     begun.render(first).image().save(tmp_path / "first.exr")

@@ -47,7 +47,7 @@ def counts_of(aov: AovImage) -> tuple[Array, Array]:
 
 
 def pixel_centers() -> Array:
-    """From -1 to 1, of the columns; of the rows it is the negative."""
+    """The centres of columns, from -1 to 1; the centres of rows are the negative."""
     places: Array = (2 * np.arange(SIDE) + 1) / SIDE - 1
     return places
 

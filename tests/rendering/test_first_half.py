@@ -104,7 +104,7 @@ def test_without_a_denoiser_nothing_stops_it() -> None:
 
 
 def test_a_render_that_ends_anywhere_is_denoised(context: Context) -> None:
-    """From 64 samples on; before, the plain picture is all there is."""
+    """This holds from 64 samples on; before, there is only the plain picture."""
     one = renderer(context, samples=1 << 12, denoise="nlm")
     for samples in (40, 63, 64, 100, 150, 333):
         image = one.render(samples).image()

@@ -43,7 +43,7 @@ def bits(scene: Scene, context: Context, pipeline: Resolved, **settings: Any) ->
 @pytest.mark.parametrize("sampler", SAMPLERS)
 @pytest.mark.parametrize("name", scene_names())
 def test_fragment_and_compute_give_the_same_bits(name: str, sampler: str, context: Context) -> None:
-    """On the software drivers; a GPU may round otherwise."""
+    """This holds on the software drivers; a GPU may round otherwise."""
     if not context.is_software:
         pytest.skip("bits are promised on software drivers alone")
     tiers: tuple[Tier, ...] = ("baked", "generic") if name == "cornell" else ("baked",)

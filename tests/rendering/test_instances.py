@@ -167,7 +167,7 @@ def test_of_ten_million_rays_none_gets_out_of_an_instance(call_glsl: CallGlsl) -
 def test_a_ray_leaves_the_triangle_of_an_instance(
     call_glsl: CallGlsl, number: int, offset: float
 ) -> None:
-    """From points on a convex mesh, outwards: it is not met, at edges and corners neither."""
+    """Rays go outwards from points on a convex mesh: none meets it, even at edges and corners."""
     at = PLACES[number]
     at = {**at, "translate": [value + offset for value in at["translate"]]}
     scene = placed(at, {"translate": [-50.0, 0, 0]}, faces=icosphere(3))

@@ -94,7 +94,7 @@ def test_what_rests_has_the_bits_of_a_picture_of_its_own(context: Context) -> No
 
 
 def test_a_picture_begins_with_probes_of_its_own(context: Context) -> None:
-    """Whatever those of the picture before hold, and wherever they stood."""
+    """The earlier picture's probes do not count: neither their light nor their places."""
     way = {name: value for name, value in WAY.items() if name != "probes"}
     places: list[list[float]] = [[1, 1, 1], [-1, -1, 0.6]]
     found = []

@@ -42,7 +42,7 @@ def found(call_glsl: CallGlsl, scene: Scene, origin: Array, direction: Array, **
 
 
 def rays(count: int, seed: int, size: float = 1.5) -> tuple[Array, Array]:
-    """From anywhere near, to anywhere near; as the kernel has them, in float32."""
+    """Rays from anywhere near, to anywhere near; as the kernel has them, in float32."""
     draw = np.random.default_rng(seed)
     origin = draw.uniform(-size, size, (count, 3)).astype(np.float32)
     direction = draw.normal(size=(count, 3))
@@ -51,7 +51,7 @@ def rays(count: int, seed: int, size: float = 1.5) -> tuple[Array, Array]:
 
 
 def from_afar(faces: Faces, count: int, seed: int) -> tuple[Array, Array]:
-    """From all around, half of them to points of triangles, the others to anywhere."""
+    """Rays from all around, half of them to points of triangles, the others to anywhere."""
     draw = np.random.default_rng(seed)
     origin = draw.normal(size=(count, 3))
     origin *= 4 / np.linalg.norm(origin, axis=1, keepdims=True)
@@ -212,7 +212,7 @@ def test_of_ten_million_rays_none_gets_out_at_an_edge(call_glsl: CallGlsl) -> No
 
 
 def test_a_ray_leaves_its_triangle_and_its_neighbours(call_glsl: CallGlsl) -> None:
-    """From points on a convex mesh, outwards: nothing is met, at edges and corners neither."""
+    """Rays go outwards from points on a convex mesh: none meets it, even at edges and corners."""
     points, faces = icosphere(3)
     scene = of_meshes((points, faces))
     draw = np.random.default_rng(8)

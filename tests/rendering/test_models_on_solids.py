@@ -91,7 +91,7 @@ def test_matte_solids_have_the_light_of_a_point(context: Context, method: str, n
 
 
 def pixel_directions() -> Array:
-    """Through the centres of the pixels, (n, 3), row by row."""
+    """The directions through the centres of the pixels, (n, 3), row by row."""
     across = (2 * (np.arange(SIZE) + 0.5) / SIZE - 1) * math.tan(math.radians(FOV / 2))
     grid = [[x, -y, -1.0] for y in across for x in across]
     directions = np.array(grid)
@@ -129,7 +129,7 @@ def distance_to(shape: Shape, origin: Array, direction: Array) -> float:
 
 
 def normal_by_distances(shape: Shape, direction: Array) -> Array:
-    """From three rays close together."""
+    """The normal from the distances of three rays close together."""
     step = 1e-5
     points = []
     for offset in ([0, 0, 0], [step, 0, 0], [0, step, 0]):

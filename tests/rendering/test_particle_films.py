@@ -70,7 +70,7 @@ def test_a_file_holds_both_films(context: Context, tmp_path: Path) -> None:
 @pytest.mark.slow_cases("71")
 @pytest.mark.parametrize("begun", [16, 24, 71])
 def test_a_render_goes_on_to_the_same_bits(context: Context, tmp_path: Path, begun: int) -> None:
-    """From the end of an observation, or from within, where its particles are there already."""
+    """It goes on at the end of an observation, or within one that has its particles already."""
     first, second, plain = renderer(context), renderer(context), renderer(context)
     first.render(begun).image().save(tmp_path / "a.exr")
     second.resume(Image.load(tmp_path / "a.exr"))

@@ -67,7 +67,7 @@ PLACES: dict[str, tuple[dict[str, Any], list[dict[str, Any]]]] = {
 
 @pytest.mark.slow
 def test_a_matte_surface_takes_light_by_its_shading_normal(context: Context) -> None:
-    """Through a pane, so that no lamp is sampled; by the true normal it would be twice as much."""
+    """A pane keeps lamps from being sampled; the true normal would give twice as much light."""
     camera, things = PLACES["matte under a pane"]
     image = rendered(under_the_sun(camera, *things), context, 1024, **ON, bounces=2)
     irradiance = IRRADIANCE * passed_by_a_pane(0.6) * (TILTED @ TOWARDS_SUN)

@@ -207,7 +207,7 @@ def test_a_change_of_the_scene_leaves_nothing_behind(context: Context) -> None:
 def test_rays_lost_to_the_loop_limit_are_followed_again(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """In smaller parts, to the same bits."""
+    """They are followed in smaller parts, to the same bits."""
     expected = picture(context)
     with rendering(ROOMS["a lens"], context, sampler="sobol", bounces=4, **ON) as renderer:
         tracer = renderer._tracer.particles

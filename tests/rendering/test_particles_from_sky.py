@@ -106,7 +106,7 @@ def test_lines_from_the_sky_have_a_density(call_glsl: CallGlsl) -> None:
 
 
 def test_particles_carry_the_flux_of_the_sky(call_glsl: CallGlsl, particle_files: str) -> None:
-    """Through the ball around the scene: 4 pi times the radiance, times the area of its disk."""
+    """The flux through the ball around the scene: 4 pi times radiance times its disk's area."""
     scene = scene_of([FLOOR, BALL], KINDS, CAMERA, background={"color": [2, 2, 2]})
     around = ball_around(scene)
     assert around

@@ -159,7 +159,7 @@ def test_errors_of_merged_pictures_are_what_seeds_show(
 
 
 def rendered_again(image: Image, context: Context, **more: Any) -> Image | None:
-    """From its recipe alone."""
+    """The picture rendered again from its recipe alone."""
     recipe = image.recipe
     assert recipe
     assert recipe.partition

@@ -73,7 +73,7 @@ def test_the_name_of_a_scene_is_not_taken_for_one() -> None:
 
 
 def test_dispatch_of_the_most_samples_equals_single_ones(context: Context) -> None:
-    """In a closed room with light sampling: two rays a segment, over seven shapes."""
+    """The case is a closed room with light sampling: two rays a segment, over seven shapes."""
     walls = room_of_planes("white")
     panel = quad([-0.5, 0.9, -0.5], [1, 0, 0], [0, 0, 1], "lamp")
     materials = {"white": {"type": "lambertian", "color": [0.9] * 3}, "lamp": lamp(2.0)}
@@ -192,7 +192,7 @@ def test_same_seed_gives_the_same_bits_and_another_does_not(context: Context) ->
 
 
 def test_error_falls_with_the_root_of_the_samples(context: Context) -> None:
-    """Against the closed form of a lamp in the centre of a matte ball."""
+    """The truth is the closed form of a lamp in the centre of a matte ball."""
     materials = {"wall": {"type": "lambertian", "color": [0.6] * 3}, "lamp": lamp(3.0, 0.5)}
     objects = [sphere([0, 0, 0], 2, "wall"), sphere([0, 0, 0], 0.7, "lamp")]
     eye = {"position": [0.2, 0.1, 1.2], "look_at": [0.5, 1, 3]}

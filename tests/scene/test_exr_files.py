@@ -61,7 +61,7 @@ def test_light_that_is_none_is_refused_with_its_number_and_place() -> None:
 
 
 def test_what_filters_leave_below_0_is_black() -> None:
-    """Up to a thousandth of the light: maps that come with Blender have such pixels."""
+    """This holds up to a thousandth of the light: maps that come with Blender have such pixels."""
     planes = {name: np.ones((20, 30), np.float32) for name in "RGB"}
     planes["G"][2, 3] = -0.5
     read = decode_image(exr(planes), WHERE)

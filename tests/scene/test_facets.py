@@ -20,7 +20,7 @@ def test_host_and_kernel_step_alike() -> None:
 def test_albedos_are_those_of_a_finer_quadrature(
     monkeypatch: pytest.MonkeyPatch, alpha: float, ior: float
 ) -> None:
-    """At the steps, and between them, where the kernel takes them to be linear."""
+    """This holds at the steps and between them, where the kernel takes albedos to be linear."""
     found = facets.facet_loss(alpha, ior)
     assert found
     monkeypatch.setattr(facets, "STEPS", 2 * facets.STEPS)

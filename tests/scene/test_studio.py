@@ -74,7 +74,7 @@ def test_the_lamp_faces_the_model_and_stays_out_of_the_picture(name: str, tmp_pa
 
 
 def test_the_lamp_lights_the_model(tmp_path: Path, context: Context) -> None:
-    """Against the same scene with a lamp that emits nothing: the sky alone."""
+    """The baseline is the same scene with a lamp that emits nothing: the sky alone."""
     scene = scene_of_cubes(tmp_path)
     dark = {**scene.materials, STUDIO: Light(emission=(0, 0, 0))}
     sizes = {"width": 32, "height": 32, "aov": ("object",)}

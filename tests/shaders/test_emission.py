@@ -42,7 +42,7 @@ def near(cone: Cone, count: int = 20_000) -> Array:
 
 @pytest.mark.parametrize("name", CONES)
 def test_emission_has_the_share_of_the_cone(call_glsl: CallGlsl, name: str) -> None:
-    """To a few roundings of the direction: 1e-7 of an angle."""
+    """The share is exact to a few roundings of the direction: 1e-7 of an angle."""
     cone = CONES[name]
     towards = near(cone)
     found = call_glsl(

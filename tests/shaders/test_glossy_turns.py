@@ -124,7 +124,7 @@ def test_paths_and_particles_know_the_same_densities(
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", ["metal", "polished metal"])
 def test_metal_turns_by_what_facets_hide(call_glsl: CallGlsl, kind: str) -> None:
-    """In closed form: visible normals have the density G1 D / (4 cos), so G1(wo) over G1(wi)."""
+    """Visible normals have the density G1 D / (4 cos), so the closed form is G1(wo) / G1(wi)."""
     what = "vec4(particle.turn, next.direction)"
     found, wi = scattered(call_glsl, kind, "vec4", what)
     goes = found[:, 3] > 1e-3

@@ -144,7 +144,7 @@ def test_lines_from_the_sun_have_a_density(call_glsl: CallGlsl) -> None:
 
 
 def test_particles_carry_the_flux_of_the_sun(call_glsl: CallGlsl, particle_files: str) -> None:
-    """Through the disk that the ball around the scene fills across it: irradiance times area."""
+    """It passes the disk that the scene's ball fills across the sun: irradiance times area."""
     place = under_the_sun(BALL, FAR_BALL)
     around = ball_around(place)
     assert around

@@ -191,7 +191,7 @@ def test_most_particles_leave_the_side_that_is_close_to_something(
 
 
 def test_none_leaves_the_dark_side_of_a_lamp(call_glsl: CallGlsl, particle_files: str) -> None:
-    """Whatever is close to it."""
+    """This holds whatever is close to it."""
     shining = {**LAMPS["quad"], "emission_side": "front"}
     place = scene_of([shining, BALL, plane([0, 1.05, 0], [0, -1, 0], "matte")], MATERIALS)
     lost = "float(particle.power.x == 0.0) + 0.0 * n"

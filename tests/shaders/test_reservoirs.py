@@ -42,7 +42,7 @@ def test_an_integral_keeps_its_mean_however_many_are_offered(
 def test_candidates_are_kept_as_often_as_they_weigh(
     call_glsl: CallGlsl, weights: tuple[int, ...]
 ) -> None:
-    """In any order, and never one without a weight."""
+    """This holds in any order, and a candidate without a weight is never kept."""
     setup = "Sampler rng = make_sampler(seed); Stream stream = empty_stream();"
     for number, weight in enumerate(weights):
         setup += f"precise float u{number} = next_independent(rng);"

@@ -117,7 +117,7 @@ def shared_places() -> Scene:
 
 
 def pictured() -> Scene:
-    """Under an image of the sky."""
+    """The scene under an image of the sky."""
     return under(
         random_sky(16, 8),
         FLOOR | {"material": "m"},

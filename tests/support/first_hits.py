@@ -107,7 +107,7 @@ def _met(shape: Any, origin: Floats, directions: Floats) -> tuple[Floats, Floats
 
 
 def hits_of_centers(scene: Scene, size: tuple[int, int]) -> FirstHits:
-    """Through the middle of each pixel, from the middle of the lens."""
+    """The hits of rays through the middle of each pixel, from the middle of the lens."""
     x, y = np.meshgrid(np.arange(size[0]) + 0.5, np.arange(size[1]) + 0.5)
     eye = np.array(scene.camera.position)
     return first_hits(scene, eye, rays_through(scene.camera, size, x, y))

@@ -20,7 +20,7 @@ NEAR = 2e-5  # relative: some roundings of float32
 
 
 def vector(values: Any) -> Any:
-    """In float64."""
+    """The vector in float64."""
     return np.array(values, np.float64)
 
 

@@ -55,7 +55,7 @@ def is_open(options: Options) -> bool:
 
 
 def resumed(options: Options) -> Image:
-    """From half of the samples to all; limits are given at the end."""
+    """A render resumed from half of the samples to all; limits are given at the end."""
     given = [] if not is_open(options) else options
     first = rendered("cornell", *SIZE, "--samples", "24", *given)
     first.save("half.exr")

@@ -126,7 +126,7 @@ def test_metal_weighs_sampled_light_as_scattered_light(context: Context) -> None
 @pytest.mark.slow_cases("blinn")
 @pytest.mark.parametrize("method", ["phong", "blinn"])
 def test_models_take_what_is_reflected_head_on(context: Context, method: str) -> None:
-    """In their highlights and of the sky, for which they have no angle."""
+    """They use it in their highlights and for the sky, where they have no angle."""
     color = list(PRESETS["copper"].head_on)
     ways: tuple[dict[str, Any], ...] = ({"preset": "copper"}, {"color": color})
     things = [plane([0, 0, 0], [0, 1, 0], "plate"), sphere([0, 2, 0], 0.5, "lamp")]

@@ -174,7 +174,7 @@ def test_meshes_far_from_the_origin_keep_their_bits(
 
 @pytest.mark.slow
 def test_meshes_have_the_same_bits_everywhere(context: Context) -> None:
-    """In both pipelines and tiers, and by EGL and OSMesa."""
+    """This holds in both pipelines and tiers, and by EGL and OSMesa."""
     if not context.is_software:
         pytest.skip("bits are promised on software drivers alone")
     expected = rendered(things(), context, 4, **SMALL)

@@ -20,7 +20,7 @@ FLAT, STEEP = (np.array(SKY["bottom"]) + SKY["top"]) / 2, (np.array(SKY["top"]) 
 
 
 def test_mirror_ball_shows_the_sky_where_each_pixel_reflects(context: Context) -> None:
-    """Against the mean and the variance over each pixel, of 8 x 8 rays a pixel in float64."""
+    """The truth is each pixel's mean and variance over 8 x 8 rays in float64."""
     size, sub, samples, color = 32, 8, 64, np.array([0.9, 0.8, 0.5])
     steel = {"type": "metal", "color": list(color), "roughness": 0}
     scene = scene_of(

@@ -75,7 +75,7 @@ def means(scene: Scene, context: Context, seeds: int, first: int = 0, **settings
 
 
 def assert_equal_means(found: Floats, truth: Floats, within: float) -> None:
-    """Up to LIMIT standard errors, which are at most `within` of it together."""
+    """Means agree up to LIMIT standard errors, which together are at most `within` of the mean."""
     error = float(np.sqrt(found.var(ddof=1) / len(found) + truth.var(ddof=1) / len(truth)))
     difference = float(found.mean() - truth.mean())
     assert abs(difference) < LIMIT * error, f"{difference / error:.1f} standard errors"

@@ -24,7 +24,7 @@ MIRROR = {"type": "metal", "color": [1.0, 1.0, 1.0]}
 
 
 def sunny(*things: dict[str, Any], camera: Any = ABOVE, **sun: Any) -> Scene:
-    """Under the sun alone, unless `background` is given."""
+    """The scene under the sun alone, unless `background` is given."""
     more = {"background": sun.pop("background")} if "background" in sun else {}
     where = {} if "direction" in sun else {"elevation": 90.0}
     table = {**where, "irradiance": IRRADIANCE.tolist(), **sun}

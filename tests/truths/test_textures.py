@@ -249,7 +249,7 @@ def test_a_hole_shows_what_is_behind_in_aovs_too(context: Context) -> None:
 
 @pytest.mark.slow
 def test_textures_have_the_same_bits_everywhere(context: Context) -> None:
-    """In both pipelines and tiers, with a tree or not, and by EGL and OSMesa."""
+    """This holds in both pipelines and tiers, with a tree or not, and by EGL and OSMesa."""
     if not context.is_software:
         pytest.skip("bits are promised on software drivers alone")
     board = {"checker": [0.25, 0.75], "scale": [3.0, 2.0]}

@@ -75,7 +75,7 @@ def assert_same(image: Image, other: Image) -> None:
 @pytest.mark.slow
 @pytest.mark.slow_cases("a film with layers")
 def test_it_is_what_a_render_makes(session: Session, denoised: DenoisedPicture) -> None:
-    """To the bit, at each doubling that there is time for, and at the end."""
+    """It is the same to the bit, at each doubling that there is time for, and at the end."""
     last = found(session, denoised, 256)
     assert session.is_done
     assert_same(last, expected(session, 256))

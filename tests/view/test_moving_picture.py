@@ -57,7 +57,7 @@ def is_shown(session: Session) -> bool:
 
 
 def shows_the_film(session: Session) -> bool:
-    """To the last bit."""
+    """Whether the shown picture is the film, to the last bit."""
     assert session.renderer
     with session.context.gl:
         light = session.renderer.weighed(session.weights)

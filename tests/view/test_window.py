@@ -126,7 +126,7 @@ def window(display: str, tmp_path_factory: pytest.TempPathFactory) -> Iterator[C
 
 @pytest.fixture(scope="module")
 def old_window(display: str, tmp_path_factory: pytest.TempPathFactory) -> Iterator[CheckedWindow]:
-    """On a driver without compute shaders."""
+    """The window on a driver without compute shaders."""
     checked = CheckedWindow(display, tmp_path_factory.mktemp("old-window"), **OLD_DRIVER)
     yield checked
     assert checked.close() == 0

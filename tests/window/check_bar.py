@@ -23,7 +23,7 @@ def place_of(hand: Hand, row: str) -> float:
 
 
 def scrolled_down(hand: Hand) -> float:
-    """To the end of the panel; how far."""
+    """Scroll to the end of the panel, and return how far."""
     hand.ctx.scroll_to_bottom(PANEL)
     hand.ctx.yield_(3)
     return float(panel_of(hand).scroll.y)

@@ -34,7 +34,7 @@ def move(hand: Hand, reference: str, value: Any) -> None:
 
 
 def drag(hand: Hand, across: float, down: float, button: int = 0) -> None:
-    """From the middle of the picture, by pixels; in several steps, as a mouse moves."""
+    """Drag from the middle of the picture, by pixels; in several steps, as a mouse moves."""
     ctx = hand.ctx
     ctx.mouse_move("//Picture/picture")
     ctx.mouse_down(button)

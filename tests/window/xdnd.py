@@ -117,7 +117,7 @@ class Source:
         }
 
     def drop(self, x: int, y: int) -> bool:
-        """At a place of the screen; whether the window took it."""
+        """Drop at a place of the screen, and return whether the window took it."""
         atoms, listed = self._atoms, self._atoms[_TYPE]
         self._x11.XSetSelectionOwner(self._display, atoms["XdndSelection"], self._window, 0)
         self._send("XdndEnter", VERSION << 24, listed)

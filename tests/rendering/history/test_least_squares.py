@@ -126,7 +126,7 @@ def wrong(shown: Array, spread: float) -> Array:
 def test_w4_the_usual_form_fails_in_float32_with_the_bound_and_without(
     spread: float, limit: bool
 ) -> None:
-    """Within 12,000 still frames of grey light; by then its factors have not failed."""
+    """It fails within 12,000 still frames of grey light; its factors have not failed by then."""
     rng = np.random.default_rng(8)
     usual = Wrls(noisy(rng, 500, spread), limit=limit, dtype=np.float32)
     factored = FactoredWrls(usual.radiance, dtype=np.float32)

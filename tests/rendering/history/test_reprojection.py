@@ -46,7 +46,7 @@ def test_between_pixels_it_is_exact_for_a_parabola(context: Context, share: floa
 
 
 def test_half_a_pixel_many_times_keeps_detail(context: Context) -> None:
-    """To and fro: a wave of 8 pixels loses what the spline's response says each time."""
+    """The view moves to and fro: a wave of 8 pixels loses the spline's response each time."""
     waves, turns = 2 * math.pi / 8, 100
     x = np.arange(64) + 0.5
     history = np.ones((16, 64, 4), np.float32)
@@ -158,7 +158,7 @@ def test_a_sky_follows_the_directions(context: Context) -> None:
 
 
 def test_it_counts_for_less_where_its_motion_is_wrong(context: Context) -> None:
-    """In glass, and at edges; at the edge of a lamp it counts for nothing."""
+    """Its motion is wrong in glass and at edges; at the edge of a lamp it counts for nothing."""
     materials = {"matte": MATTE, "glass": glass(1.5), "lamp": lamp(3.0)}
 
     def counts(ball: str) -> np.ndarray:

@@ -63,7 +63,7 @@ def test_the_screen_has_history_and_the_film_has_none(
 
 
 def test_a_crop_shows_that_part_of_the_frame(context: Context) -> None:
-    """To the last bit, where no history comes from beyond it."""
+    """It is the same to the last bit where no history comes from beyond the crop."""
     scene = wall(background={"bottom": [0.1, 0.2, 0.3], "top": [3.0, 2.0, 1.0]})
     found = []
     for crop in (None, (8, 8, 8, 8)):

@@ -245,7 +245,7 @@ def test_a_wall_that_becomes_brighter_is_followed(context: Context, predictor: P
 
 @pytest.mark.parametrize("predictor", PREDICTORS)
 def test_an_orbit_is_clearer(context: Context, predictor: Predictor) -> None:
-    """At 24 x 24 pixels, two samples a frame: less than half the squared error of the film."""
+    """24 x 24 pixels, two samples a frame: it has less than half the film's squared error."""
     scene = load("cornell")
     frames = orbit(scene, 24, 1.0)
     settings = settings_for(scene.render, width=24, height=24, sampler="independent")

@@ -47,7 +47,7 @@ class StillWrls:
     """The pictures shown of films (H, W, 4) of one view after another; alpha: samples."""
 
     def __init__(self, is_delayed: bool = False) -> None:
-        """Before the first view."""
+        """Begin before the first view."""
         self._is_delayed = is_delayed
         self._model: FactoredWrls | None = None
         self._frame = 1.0  # samples

@@ -79,7 +79,7 @@ def test_the_first_vertex_is_on_the_lens(mixed: list[PixelPaths]) -> None:
 def test_paths_go_straight_on_where_nothing_happens(
     context: Context, scene: str, pixel: tuple[int, int], event: str
 ) -> None:
-    """Through the hole of a surface, and through one that lies in another glass."""
+    """They go through the hole of a surface, and through a surface that lies in another glass."""
     found = replayed(load(scene), pixel, context)
     passed = 0
     for _, path in paths([found]):

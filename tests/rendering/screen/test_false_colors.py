@@ -76,7 +76,7 @@ def drawn(renderer: Renderer, draw: Callable[[FalseColors, moderngl.Texture], No
 
 
 def assert_drawn(codes: Codes, scale: Scale, numbers: Any) -> None:
-    """Within 1 of 255: rounding, in float32 here and in float64 there."""
+    """The codes agree within 1 of 255: the shader rounds in float32, the truth in float64."""
     assert np.abs(codes - 255 * scale.color(numbers)).max() < 1.5
 
 
