@@ -134,7 +134,7 @@ def test_more_lamps_than_that_are_weighed_in_clusters() -> None:
 
 @pytest.mark.slow
 def test_another_lamp_compiles_where_lamps_are_weighed(context: Context) -> None:
-    """Their number is a constant of the kernel; of many, the number of clusters is."""
+    """Their number is a constant of the kernel; with many lamps, the number of clusters is."""
     for count, cost in ((2, Cost.RECOMPILE), (MOST_NEAR + 1, Cost.RESTART)):
         with rendering(balls(count), context) as renderer:
             assert renderer.update(balls(count + 1)) is cost

@@ -65,7 +65,7 @@ def test_what_longer_paths_leave_out_counts(context: Context) -> None:
     """The bias leaves no room for the filter's error."""
     found = denoised_choice(ROOM, chosen(8.0), 0.06, context)
     assert found
-    bias = 0.95 * 0.06  # what is left for noise: 1.9 %, or 8,200 samples of a plain picture
+    bias = 0.95 * 0.06  # it leaves 1.9 % for noise, or 8,200 samples of a plain picture
     other = denoised_choice(ROOM, chosen(3.0, bias), 0.06, context)
     assert other is None or other.samples > found.samples
 

@@ -29,8 +29,8 @@ CAMERA = {"position": [0.31, -0.17, 0.23], "look_at": [-0.6, 0.5, -1.0], "fov": 
 
 @pytest.mark.slow
 def test_rays_of_probes_are_counted(context: Context) -> None:
-    """In a dark closed room each of their paths asks probes at the first wall, as those of pixels
-    do, and ends with the ray that would find a lamp there. To see takes one ray.
+    """In a dark closed room each path of a probe asks probes at the first wall, as paths of pixels
+    do. It ends with the ray that would find a lamp there. Visibility takes one ray.
     """
     dark = scene_of([sphere([0, 0, 0], 1, "wall")], {"wall": MATTE}, CAMERA)
     rays = rays_of(dark, settings_for(dark.render, **WAY, probes=2), context)

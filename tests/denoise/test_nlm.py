@@ -32,7 +32,7 @@ def near(y: int, x: int, reach: int) -> list[tuple[int, int]]:
 
 
 def twin(half: Half) -> Floats:
-    """Each pixel as the mean of its window, weighed pair by pair."""
+    """The filter's twin: each pixel is the mean of its window, weighed pair by pair."""
     color = half.radiance.astype(np.float64)
     noise = np.zeros_like(color)
     for y, x in np.ndindex(SIZE):

@@ -149,7 +149,7 @@ def test_rims_are_as_many_samples_see_them(context: Context, seed: int) -> None:
     ("hits", "times", "is_known"),
     [
         (1.0, 100.0, True),  # a single bright sample: its chance is 1 in 100
-        (1.0, 1e7, False),  # so bright a one is not of what is known
+        (1.0, 1e7, False),  # a pixel so bright is not explained by the known lamps
         (25.0, 1.5, True),  # 25 samples where 17 were expected: about 2 standard errors
         (81.0, 3.0, False),  # 81 where 27 were: 1 in 10^15
     ],

@@ -132,7 +132,7 @@ def test_what_cannot_be_merged_is_refused_by_its_reason(name: str) -> None:
 
 
 def test_a_part_that_lost_its_numbers_of_objects_is_refused() -> None:
-    """They are of no film, and are not merged: those of the first part count."""
+    """They belong to no film, and are not merged: the first part's numbers count."""
     render = render_of(2 * BLOCK, "object")
     given = [replace(render.part(1, 2), aovs={}), render.part(2, 2)]
     assert "image 1 lacks the state of its film" in refusal(given)

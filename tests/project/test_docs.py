@@ -55,7 +55,7 @@ def test_relative_links_lead_somewhere(page: Path) -> None:
 
 @pages
 def test_modules_that_are_run_exist(page: Path) -> None:
-    """Except those of a commit that the page names."""
+    """Files of a commit that the page names are excepted."""
     for module in re.findall(r"python -m ([\w.]*\w)(?![^`]*` at commit)", page.read_text()):
         assert find_spec(module) is not None, module
 

@@ -29,7 +29,7 @@ THINGS = {
 
 
 def everything() -> Scene:
-    """Each of them of several materials, and a round lamp."""
+    """Disks, boxes and cylinders of several materials over a plane, and a round lamp."""
     objects = [
         plane([0, -1, 0], [0, 1, 0], "white"),
         disk([0.2, 1.1, -3], [0.1, 1, 0], 0.5, "lamp"),

@@ -15,7 +15,7 @@ from tests.support.relit_room import layered, radiance, room
 
 
 def renamed(scene: Scene) -> Scene:
-    """Every name is another one, those of light groups too."""
+    """Every name is another one; so are the names of light groups."""
     for name in [*scene.materials]:
         scene = with_renamed_material(scene, name, f"{name} by another name")
     for index, thing in enumerate(scene.objects):

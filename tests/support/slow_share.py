@@ -74,7 +74,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 @pytest.hookimpl(wrapper=True)
 def pytest_sessionfinish(session: pytest.Session) -> Iterator[None]:
-    """A share without a test is a share all the same."""
+    """A share without a test is still a share."""
     report(session.config, SHARE, session.config.stash.get(DRAWN, ""))
     yield
     if DRAWN in session.config.stash and session.exitstatus == pytest.ExitCode.NO_TESTS_COLLECTED:

@@ -161,7 +161,7 @@ def test_a_pan_by_whole_pixels_filters_as_many_columns(context: Context) -> None
 
 
 def test_what_was_hidden_is_traced_in_a_band_as_wide_as_the_parallax(context: Context) -> None:
-    """A quad goes left by 4 pixels, the wall behind it by 2; samples there are those of a film."""
+    """A quad goes left by 4 pixels, the wall behind it by 2; samples there come from a film."""
     scenes = [two_walls(0.0, **SKY), two_walls(2 * PIXEL, **SKY)]
     seen = played(scenes, context)[-1]
     edge = SIZE[0] // 2 - 4
