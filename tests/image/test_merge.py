@@ -105,7 +105,7 @@ def test_fewer_than_two_observations_have_no_error() -> None:
 
 @pytest.mark.parametrize("count", [2, 5])
 def test_bits_do_not_depend_on_the_order(count: int, tmp_path: Path) -> None:
-    """The file does not either: where parts may differ, as in exposure, the first part's counts."""
+    """The file does not either: where parts may differ, as in exposure, it has part 1's value."""
     given = [
         replace(image, recipe=recipe_of(image).model_copy(update={"settings": settings}))
         for number, image in enumerate(parts(count))

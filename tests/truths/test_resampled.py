@@ -250,7 +250,7 @@ def test_a_scene_scaled_by_a_power_of_two_keeps_its_bits(context: Context, reuse
 def test_the_picture_does_not_hang_on_what_was_rendered_before(
     context: Context, reuse: str
 ) -> None:
-    """The earlier render had other settings, or took a sample at a time."""
+    """Earlier renders had other settings, or took a few samples at a time."""
     scene = load("methods/diffuse")
     ways = {**WAY, "reuse": reuse, "samples": 48}
     with rendering(scene, context, **ways) as renderer:

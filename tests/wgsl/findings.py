@@ -50,7 +50,7 @@ class Suspicion(NamedTuple):
 
 
 class SwappedTwice(Tracer):
-    """The thesis's text taken literally: one target in every frame, the source never written."""
+    """The thesis's text does this: one target in every frame, the source never written."""
 
     def swap(self) -> None:
         """Once at the start of a frame and once at the end of the last one."""
