@@ -132,13 +132,15 @@ void splat(vec2 film, vec3 radiance, int layer) {
 #include "integrators/particles.glsl"
 
 vec3 lamp_normal(Light light, vec3 position) {
+    if (is_sphere_lamp(light.shape)) {
+        precise Sphere sphere = sphere_at(light.shape);
+        precise vec3 normal = (position - sphere.center) / sphere.radius;
+        return normal;
+    }
     if (is_triangle_lamp(light.shape)) return normalized(lamp_triangle(light.shape).across);
     if (is_disk_lamp(light.shape)) return disk_lamp(light.shape).normal;
     if (is_quad_lamp(light.shape)) return quad_lamp(light.shape).normal;
-    if (!is_sphere_lamp(light.shape)) return vec3(0.0);
-    precise Sphere sphere = sphere_at(light.shape);
-    precise vec3 normal = (position - sphere.center) / sphere.radius;
-    return normal;
+    return vec3(0.0);
 }
 
 // One particle of the sample first_sample.
