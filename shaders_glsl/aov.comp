@@ -21,8 +21,8 @@ void main() {
     ivec2 corner = tile_corner(picture, frame.first_tile + int(gl_WorkGroupID.x));
     ivec2 texel = corner + ivec2(gl_LocalInvocationID.xy);
     if (any(greaterThanEqual(texel, picture))) return;
-    precise Pixel first = empty_pixel();
-    precise Pixel second = empty_pixel();
+    Pixel first = empty_pixel();
+    Pixel second = empty_pixel();
     if (frame.is_empty == 0) {
         first = pixel_of(imageLoad(source_mean, texel), imageLoad(source_variance, texel));
         if (SECOND_AOV != NO_AOV) {

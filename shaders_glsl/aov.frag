@@ -13,8 +13,8 @@ layout(location = 3) out vec4 target_second_variance;
 
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);
-    precise Pixel first = empty_pixel();
-    precise Pixel second = empty_pixel();
+    Pixel first = empty_pixel();
+    Pixel second = empty_pixel();
     if (frame.is_empty == 0) {
         first = pixel_of(texelFetch(source_mean, texel, 0), texelFetch(source_variance, texel, 0));
         if (SECOND_AOV != NO_AOV) {

@@ -19,7 +19,7 @@ out vec4 color;
 // The colour of an object. Neighbouring numbers get very different colours; none is dark.
 vec3 color_of_object(uint number) {
     uint bits = pcg_hash(number);
-    precise vec3 share = vec3(uvec3(bits, bits >> 8, bits >> 16) & 255u) / 255.0;
+    vec3 share = vec3(uvec3(bits, bits >> 8, bits >> 16) & 255u) / 255.0;
     return 0.25 + 0.75 * share;
 }
 

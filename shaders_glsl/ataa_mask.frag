@@ -22,19 +22,19 @@ out vec4 mask;              // a: the number of what a pixel shows (temporal/ata
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);
     ivec2 last = textureSize(light, 0) - 1;
-    precise vec4 facing = texelFetch(normal, texel, 0);
-    precise vec2 place = place_before(seen_before(texelFetch(position, texel, 0)));
-    precise vec4 known = texelFetch(brought, texel, 0);
-    precise float least = 1.0;
-    precise float most = 0.0;
+    vec4 facing = texelFetch(normal, texel, 0);
+    vec2 place = place_before(seen_before(texelFetch(position, texel, 0)));
+    vec4 known = texelFetch(brought, texel, 0);
+    float least = 1.0;
+    float most = 0.0;
     for (int n = 0; n < 9; n += 1) {
         ivec2 near = clamp(texel + ivec2(n % 3 - 1, n / 3 - 1), ivec2(0), last);
-        precise float luma = luma_of(texelFetch(light, near, 0).rgb);
+        float luma = luma_of(texelFetch(light, near, 0).rgb);
         least = min(least, luma);
         most = max(most, luma);
     }
-    precise float luma = luma_of(known.rgb);
-    precise float off = max(max(least - luma, luma - most), 0.0);
+    float luma = luma_of(known.rgb);
+    float off = max(max(least - luma, luma - most), 0.0);
     int found = failure_of(vec2(texel) + 0.5, place, known.a, off, most - least,
                            has_flag(facing, EDGE), has_flag(facing, SPECULAR));
     mask = vec4(off, most - least, known.a, float(found));

@@ -21,10 +21,10 @@ layout(location = 1) out vec4 row[7];  // zeros where the surface was not seen
 
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);
-    precise vec4 surface = texelFetch(position, texel, 0);
-    precise vec4 facing = texelFetch(normal, texel, 0);
-    precise vec3 seen = seen_before(surface);
-    precise vec2 place = place_before(seen);
+    vec4 surface = texelFetch(position, texel, 0);
+    vec4 facing = texelFetch(normal, texel, 0);
+    vec3 seen = seen_before(surface);
+    vec2 place = place_before(seen);
     ivec2 source = NO_TEXEL;
     if (place != NO_PLACE && !has_flag(facing, LAMP_EDGE)) source = texel_at(place, surface.w, seen, facing);
     unused = vec4(0.0);

@@ -10,8 +10,8 @@ in vec2 place;
 out vec4 color;
 
 void main() {
-    precise vec2 size = vec2(textureSize(picture, 0));
+    vec2 size = vec2(textureSize(picture, 0));
     ivec2 texel = min(ivec2(place * size), ivec2(size) - 1);
-    precise vec3 radiance = texelFetch(picture, texel, 0).rgb;
+    vec3 radiance = texelFetch(picture, texel, 0).rgb;
     color = vec4(expose_and_encode(radiance, exposure, tonemap), 1.0);
 }

@@ -3,7 +3,7 @@
 out vec2 place;  // (0, 0) in the upper left corner of the picture, (1, 1) in the lower right
 
 void main() {
-    precise vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
+    vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
     place = vec2(corner.x, 1.0 - corner.y);
     gl_Position = vec4(2.0 * corner - 1.0, 0.0, 1.0);
 }

@@ -14,14 +14,14 @@ const float OFF_PLANE = 0.02;  // of the distance from the eye
 bool is_other(vec4 middle, vec3 facing, vec4 around) {
     if (around.w != middle.w) return true;
     if (middle.w <= 0.0) return false;
-    precise float off = abs(dot(around.xyz - middle.xyz, facing));
+    float off = abs(dot(around.xyz - middle.xyz, facing));
     return off > OFF_PLANE * length(middle.xyz);
 }
 
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);
     ivec2 last = textureSize(position, 0) - 1;
-    precise vec4 middle = texelFetch(position, texel, 0);
+    vec4 middle = texelFetch(position, texel, 0);
     marked = texelFetch(normal, texel, 0);
     bool is_edge = false;
     bool has_lamp = has_flag(marked, LAMP);

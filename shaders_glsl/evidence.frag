@@ -17,16 +17,16 @@ const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
 void main() {
     ivec2 corner = TILE * ivec2(gl_FragCoord.xy);
     ivec2 end = min(corner + TILE, textureSize(mean, 0));
-    precise float count = 0.0;
-    precise float sum = 0.0;
-    precise float squares = 0.0;
-    precise float rarity = 0.0;  // sum of the variances of d, where one sample has variance 1
+    float count = 0.0;
+    float sum = 0.0;
+    float squares = 0.0;
+    float rarity = 0.0;  // sum of the variances of d, where one sample has variance 1
     for (int y = corner.y; y < end.y; y += 1) {
         for (int x = corner.x; x < end.x; x += 1) {
-            precise vec4 history = texelFetch(brought, ivec2(x, y), 0);
-            precise float samples = texelFetch(mean, ivec2(x, y), 0).a;
+            vec4 history = texelFetch(brought, ivec2(x, y), 0);
+            float samples = texelFetch(mean, ivec2(x, y), 0).a;
             if (history.a <= 0.0 || samples <= 0.0) continue;
-            precise float d = dot(texelFetch(light, ivec2(x, y), 0).rgb - history.rgb, LUMINANCE);
+            float d = dot(texelFetch(light, ivec2(x, y), 0).rgb - history.rgb, LUMINANCE);
             count += 1.0;
             sum += d;
             squares += d * d;
@@ -35,9 +35,9 @@ void main() {
     }
     evidence = vec4(0.0);
     if (count < LEAST) return;
-    precise float average = sum / count;
-    precise float variance = max(squares / count - average * average, 0.0);
-    precise float bias = max(average * average - MARGIN * variance / count, 0.0);
-    precise float of_one = variance * count / rarity;
+    float average = sum / count;
+    float variance = max(squares / count - average * average, 0.0);
+    float bias = max(average * average - MARGIN * variance / count, 0.0);
+    float of_one = variance * count / rarity;
     evidence.r = bias > 0.0 ? bias / max(of_one, bias * 1.0e-6) : 0.0;
 }

@@ -15,14 +15,14 @@ const int TILE = 8;          // as in evidence.frag
 
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);
-    precise vec4 history = texelFetch(brought, texel, 0);
-    precise vec3 fresh = texelFetch(light, texel, 0).rgb;
-    precise float count = texelFetch(mean, texel, 0).a;
+    vec4 history = texelFetch(brought, texel, 0);
+    vec3 fresh = texelFetch(light, texel, 0).rgb;
+    float count = texelFetch(mean, texel, 0).a;
     ivec2 tile = texel / TILE;
-    precise float trusted = history.a / (1.0 + history.a * texelFetch(evidence, tile, 0).r);
-    precise float left = trusted * max(1.0 - samples / end, 0.0);
+    float trusted = history.a / (1.0 + history.a * texelFetch(evidence, tile, 0).r);
+    float left = trusted * max(1.0 - samples / end, 0.0);
     shown = vec4(fresh, count);
     if (left <= 0.0) return;
-    precise float share = left / (left + count);
+    float share = left / (left + count);
     shown = vec4(fresh + share * (history.rgb - fresh), left + count);
 }

@@ -35,7 +35,7 @@ out vec4 color;
 
 // Squared standard error, by the formula of glrt.rendering.film.standard_error; negative below two observations.
 vec3 variance_of_mean(ivec2 texel) {
-    precise vec4 observed = texelFetch(variance, texel, 0);
+    vec4 observed = texelFetch(variance, texel, 0);
     if (observed.a < 2.0) return vec3(-1.0);
     return observed.rgb / (observed.a - 1.0);
 }
@@ -43,23 +43,23 @@ vec3 variance_of_mean(ivec2 texel) {
 // The same from two halves of the observations, by the formula of glrt.rendering.weighting.mixed.
 vec3 variance_by_halves(ivec2 texel) {
     ivec2 size = textureSize(mean, 0);
-    precise vec3 apart = vec3(0.0);
-    precise vec2 counts = vec2(0.0);
+    vec3 apart = vec3(0.0);
+    vec2 counts = vec2(0.0);
     for (int i = 0; i < layer_count; i += 1) {
-        precise vec4 one = texelFetch(layers, size * ivec2(i, 0) + texel, 0);
-        precise vec4 two = texelFetch(layers, size * ivec2(i, 1) + texel, 0);
+        vec4 one = texelFetch(layers, size * ivec2(i, 0) + texel, 0);
+        vec4 two = texelFetch(layers, size * ivec2(i, 1) + texel, 0);
         apart += weights[i] * (one.rgb - two.rgb);
         counts = vec2(one.a, two.a);
     }
     if (counts.x * counts.y == 0.0) return vec3(-1.0);
-    precise float total = counts.x + counts.y;
+    float total = counts.x + counts.y;
     return apart * apart * (counts.x * counts.y / (total * total));
 }
 
 // The brightest of the pixels next to one in the film, by channel. A film of one pixel gives that pixel.
 vec3 brightest_beside(ivec2 texel) {
     ivec2 last = textureSize(mean, 0) - 1;
-    precise vec3 most = last == ivec2(0) ? texelFetch(light, texel, 0).rgb : vec3(0.0);
+    vec3 most = last == ivec2(0) ? texelFetch(light, texel, 0).rgb : vec3(0.0);
     for (int y = max(texel.y - 1, 0); y <= min(texel.y + 1, last.y); y += 1) {
         for (int x = max(texel.x - 1, 0); x <= min(texel.x + 1, last.x); x += 1) {
             if (ivec2(x, y) != texel) most = max(most, texelFetch(light, ivec2(x, y), 0).rgb);
@@ -70,18 +70,18 @@ vec3 brightest_beside(ivec2 texel) {
 
 // The estimated true radiance of a pixel, squared, by the formula of glrt.error.estimate.squared_levels.
 vec3 squared_level(ivec2 texel, vec3 radiance, vec3 squared) {
-    precise vec3 near = min(radiance, brightest_beside(texel));
-    precise vec3 own = radiance * radiance;
+    vec3 near = min(radiance, brightest_beside(texel));
+    vec3 own = radiance * radiance;
     return max(max(near * near, own - unsure * squared), own / (luck * luck));
 }
 
 // A pixel's share in the relative error of the picture (glrt.error.estimate.estimated_error).
 float relative_error(ivec2 texel) {
-    precise vec3 radiance = texelFetch(light, texel, 0).rgb;
-    precise vec3 squared = layer_count > 0 ? variance_by_halves(texel)
+    vec3 radiance = texelFetch(light, texel, 0).rgb;
+    vec3 squared = layer_count > 0 ? variance_by_halves(texel)
                                    : weights[0] * weights[0] * variance_of_mean(texel);
     if (squared.r < 0.0) return -1.0;
-    precise vec3 level = squared_level(texel, radiance, squared);
+    vec3 level = squared_level(texel, radiance, squared);
     return sqrt(dot(squared / (level + dark), vec3(1.0 / 3.0)));
 }
 
@@ -90,10 +90,10 @@ float relative_error(ivec2 texel) {
 float most_dropped(ivec2 texel) {
     ivec2 last = textureSize(mean, 0) - 1;
     int reach = 1 + last.y / 400;
-    precise float most = 0.0;
+    float most = 0.0;
     for (int y = -reach; y <= reach; y += 1) {
         for (int x = -reach; x <= reach; x += 1) {
-            precise float count = texelFetch(mean, clamp(texel + ivec2(x, y), ivec2(0), last), 0).a;
+            float count = texelFetch(mean, clamp(texel + ivec2(x, y), ivec2(0), last), 0).a;
             most = max(most, samples - count);
         }
     }
@@ -102,8 +102,8 @@ float most_dropped(ivec2 texel) {
 
 // Difference of luminances, relative to the other's: negative where this film is darker.
 float relative_difference(ivec2 texel) {
-    precise float here = dot(texelFetch(light, texel, 0).rgb, LUMINANCE);
-    precise float there = dot(texelFetch(other, texel, 0).rgb, LUMINANCE);
+    float here = dot(texelFetch(light, texel, 0).rgb, LUMINANCE);
+    float there = dot(texelFetch(other, texel, 0).rgb, LUMINANCE);
     return (here - there) / sqrt(there * there + dark);
 }
 
@@ -113,22 +113,22 @@ vec3 color_of(float number) {
 }
 
 vec3 dimmed(ivec2 texel) {
-    precise float luminance = max(dot(texelFetch(light, texel, 0).rgb, LUMINANCE), 0.0);
+    float luminance = max(dot(texelFetch(light, texel, 0).rgb, LUMINANCE), 0.0);
     return vec3(DIM * pow(min(luminance, 1.0), 1.0 / 2.2));
 }
 
 void main() {
     ivec2 size = textureSize(mean, 0);
     ivec2 texel = min(ivec2(place * vec2(size)), size - 1);
-    precise vec3 shown = UNKNOWN;
+    vec3 shown = UNKNOWN;
     if (shows == SHOWS_ERROR) {
-        precise float error = relative_error(texel);
+        float error = relative_error(texel);
         if (error >= 0.0) shown = color_of(error);
     } else if (shows == SHOWS_DROPPED) {
-        precise float count = most_dropped(texel);
+        float count = most_dropped(texel);
         shown = count > 0.0 ? color_of(count) : dimmed(texel);
     } else if (shows == SHOWS_HISTORY || shows == SHOWS_PROBES) {
-        precise float number = texelFetch(other, texel, 0).a;
+        float number = texelFetch(other, texel, 0).a;
         if (shows == SHOWS_PROBES) shown = dimmed(texel);
         if (number > least) shown = color_of(number);
     } else {

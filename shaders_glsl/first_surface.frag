@@ -18,10 +18,10 @@ out vec4 color;
 void main() {
     ivec2 size = textureSize(albedo, 0);
     ivec2 texel = min(ivec2(place * vec2(size)), size - 1);
-    precise vec3 direction = forward + (2.0 * place.x - 1.0) * right + (1.0 - 2.0 * place.y) * up;
-    precise vec3 unit_normal = texelFetch(normal, texel, 0).rgb;
-    precise float facing = max(-dot(unit_normal, normalize(direction)), 0.0);
-    precise vec3 light = texelFetch(albedo, texel, 0).rgb * (AMBIENT + (1.0 - AMBIENT) * facing);
+    vec3 direction = forward + (2.0 * place.x - 1.0) * right + (1.0 - 2.0 * place.y) * up;
+    vec3 unit_normal = texelFetch(normal, texel, 0).rgb;
+    float facing = max(-dot(unit_normal, normalize(direction)), 0.0);
+    vec3 light = texelFetch(albedo, texel, 0).rgb * (AMBIENT + (1.0 - AMBIENT) * facing);
     bool is_met = unit_normal != vec3(0.0);
     color = vec4(encode_srgb(clamp(is_met ? light : NOTHING, 0.0, 1.0)), 1.0);
 }

@@ -9,7 +9,7 @@ out vec4 color;
 
 void main() {
     ivec2 size = textureSize(picture, 0);
-    precise vec2 texel = floor(corner + place * extent);
+    vec2 texel = floor(corner + place * extent);
     ivec2 inside = clamp(ivec2(texel), ivec2(0), size - 1);
     color = texelFetch(picture, ivec2(inside.x, size.y - 1 - inside.y), 0);
 }

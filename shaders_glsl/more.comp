@@ -14,7 +14,7 @@ void main() {
     if (place >= listed || frame.sample_count == 0) return;
     int width = imageSize(target_more).x;
     ivec2 texel = ivec2(int(pixels[place]) % width, int(pixels[place]) / width);
-    precise Pixel pixel = empty_pixel();
+    Pixel pixel = empty_pixel();
     int lost = add_samples(pixel, frame.origin + texel);
     if ((HAS_SPHERE_TREE || HAS_TREE || HAS_MESH) && lost > 0) atomicAdd(lost_samples, uint(lost));
     imageStore(target_more, texel, vec4(pixel.mean, pixel.count));

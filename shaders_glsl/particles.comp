@@ -25,7 +25,7 @@ uint own_clipped = 0u;
 uint own_refused = 0u;
 
 void add_words(int at, float units) {
-    precise float high = floor(units / HIGH);
+    float high = floor(units / HIGH);
     uint low = uint(units - high * HIGH);
     uint before = atomicAdd(words[at], low);
     uint more = uint(high) + (before > 0xFFFFFFFFu - low ? 1u : 0u);
@@ -39,7 +39,7 @@ ivec2 crop_size() {
 
 // Adds radiance to a pixel of the crop.
 void add_to_pixel(ivec2 pixel, vec3 radiance, int layer) {
-    precise vec3 units = radiance / splat_unit();
+    vec3 units = radiance / splat_unit();
     if (!is_finite(units)) {
         own_refused += 1u;
         return;

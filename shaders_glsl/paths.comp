@@ -22,9 +22,9 @@ layout(std430) writeonly buffer Lights { LightRecord lights[]; };
 layout(std430) buffer Lost { uint lost_samples; };  // as in trace.comp
 
 // Records of the vertex that the path has reached, and of the light that it finds next.
-precise VertexRecord here = VertexRecord(
+VertexRecord here = VertexRecord(
     vec3(0.0), 0, vec3(0.0), 0, vec3(0.0), 0, vec3(0.0), EVENT_ENDED, vec3(0.0), 0.0, 0.0, 1.0, 0, 0);
-precise LightRecord light_here = LightRecord(vec3(0.0), 0, vec3(0.0), 0, 0, 0, 0, 0, 0.0, 0.0, 1.0, 0.0, vec3(0.0), 0);
+LightRecord light_here = LightRecord(vec3(0.0), 0, vec3(0.0), 0, 0, 0, 0, 0, 0.0, 0.0, 1.0, 0.0, vec3(0.0), 0);
 int vertex_number = -1;
 int light_number = 0;
 int end_reason = END_CUT_LOOP;
@@ -115,7 +115,7 @@ void record_end(int reason) { end_reason = reason; }
 const int PARTICLE_GROUP = 64;  // particles, as in particles.comp
 
 int lamp = 0;                        // object that the particle comes from
-precise vec3 shining = vec3(0.0);    // its radiance there
+vec3 shining = vec3(0.0);    // its radiance there
 
 // Adds this pixel's share of the light that a particle brings to the frame: a mean over the particles of a sample.
 void splat(vec2 film, vec3 radiance, int layer) {
@@ -123,7 +123,7 @@ void splat(vec2 film, vec3 radiance, int layer) {
         begin_light();
         return;
     }
-    precise vec3 added = radiance / frame.particles;
+    vec3 added = radiance / frame.particles;
     record_light(BY_PARTICLE, lamp, light_here.pdf, shining, added);
 }
 
@@ -133,8 +133,8 @@ void splat(vec2 film, vec3 radiance, int layer) {
 
 vec3 lamp_normal(Light light, vec3 position) {
     if (is_sphere_lamp(light.shape)) {
-        precise Sphere sphere = sphere_at(light.shape);
-        precise vec3 normal = (position - sphere.center) / sphere.radius;
+        Sphere sphere = sphere_at(light.shape);
+        vec3 normal = (position - sphere.center) / sphere.radius;
         return normal;
     }
     if (is_triangle_lamp(light.shape)) return normalized(lamp_triangle(light.shape).across);
@@ -150,11 +150,11 @@ void replay_particle() {
     here.sample_index = frame.first_sample;
     light_here.sample_index = frame.first_sample;
     light_here.lane = lane;
-    precise Sampler rng = sampler_at(ivec2(lane, -1), frame.first_sample, frame.seed);
-    precise Particle particle = start_particle(rng);
+    Sampler rng = sampler_at(ivec2(lane, -1), frame.first_sample, frame.seed);
+    Particle particle = start_particle(rng);
     if (particle.power == vec3(0.0)) return;
-    precise Ray ray = particle.path.ray;
-    precise vec3 normal = ray.direction;
+    Ray ray = particle.path.ray;
+    vec3 normal = ray.direction;
     lamp = SKY_SENDS ? FROM_BACKGROUND : FROM_SUN;
     if (particle.light >= 0) {
         normal = lamp_normal(light_at(particle.light), ray.origin);
@@ -177,8 +177,8 @@ void replay_sample() {
     int index = frame.first_sample + offset;
     here.sample_index = index;
     light_here.sample_index = index;
-    precise Sampler rng = sampler_at(place, index, frame.seed);
-    precise Path path = camera_path(place, rng);
+    Sampler rng = sampler_at(place, index, frame.seed);
+    Path path = camera_path(place, rng);
     record_vertex(path.ray.origin, frame.camera.forward, frame.camera.forward, NO_SHAPE, 0.0, path.throughput);
     here.event = EVENT_SENT;
     here.direction = path.ray.direction;

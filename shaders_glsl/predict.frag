@@ -16,7 +16,7 @@ layout(location = 0) out vec4 prediction;  // radiance, and the weight of the fi
 layout(location = 1) out vec4 new_row[7];
 
 Model model_at(ivec2 texel) {
-    precise Rows known;
+    Rows known;
     for (int j = 0; j < 7; j += 1) known.row[j] = texelFetch(known_row[j], texel, 0);
     return model_of(known);
 }
@@ -26,18 +26,18 @@ float frames_of(float count) {
 }
 
 Prediction of_no_sample(Model model) {
-    precise vec3 radiance = model.fit.slopes * vec4(1.0, model.feature);
+    vec3 radiance = model.fit.slopes * vec4(1.0, model.feature);
     return Prediction(model, radiance, 0.0);
 }
 
 // The prediction with a film. The film's nearest 3 x 3 pixels give the limits in which a feature is kept.
 Prediction with_film(Model model, vec3 fresh, float count, ivec2 texel) {
     ivec2 last = textureSize(light, 0) - 1;
-    precise vec3 lowest = fresh;
-    precise vec3 highest = fresh;
+    vec3 lowest = fresh;
+    vec3 highest = fresh;
     for (int n = 0; n < 9; n += 1) {
         ivec2 near = clamp(texel + ivec2(n % 3 - 1, n / 3 - 1), ivec2(0), last);
-        precise vec3 around = texelFetch(light, near, 0).rgb;
+        vec3 around = texelFetch(light, near, 0).rgb;
         lowest = min(lowest, around);
         highest = max(highest, around);
     }
@@ -46,11 +46,11 @@ Prediction with_film(Model model, vec3 fresh, float count, ivec2 texel) {
 
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);
-    precise vec4 film = texelFetch(light, texel, 0);
-    precise vec3 fresh = film.rgb;
-    precise float count = film.a;
-    precise Prediction made = first_prediction(fresh, frames_of(count));
-    precise Model model = model_at(texel);
+    vec4 film = texelFetch(light, texel, 0);
+    vec3 fresh = film.rgb;
+    float count = film.a;
+    Prediction made = first_prediction(fresh, frames_of(count));
+    Model model = model_at(texel);
     if (has_history && model.views > 0.0) {
         if (count > 0.0) made = with_film(model, fresh, count, texel);
         else made = of_no_sample(model);
@@ -58,6 +58,6 @@ void main() {
         made.model.views = 0.0;  // the model is not used
     }
     prediction = vec4(made.radiance, made.weight);
-    precise Rows rows = rows_of(made.model);
+    Rows rows = rows_of(made.model);
     for (int j = 0; j < 7; j += 1) new_row[j] = rows.row[j];
 }

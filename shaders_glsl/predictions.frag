@@ -20,22 +20,22 @@ const float LIKENESS = 0.3;      // standard deviation of weights by relative di
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);
     ivec2 last = textureSize(light, 0) - 1;
-    precise vec4 own = texelFetch(feature, texel, 0);
-    precise vec3 sum = vec3(0.0);
-    precise float total = 0.0;
+    vec4 own = texelFetch(feature, texel, 0);
+    vec3 sum = vec3(0.0);
+    float total = 0.0;
     for (int n = 0; n < (2 * REACH + 1) * (2 * REACH + 1); n += 1) {
         ivec2 off = ivec2(n % (2 * REACH + 1), n / (2 * REACH + 1)) - REACH;
         ivec2 near = texel + off;
         if (near != clamp(near, ivec2(0), last)) continue;
-        precise float away = dot(vec2(off), vec2(off)) / (PIXELS * PIXELS);
-        precise float unlike = relative_distance(texelFetch(feature, near, 0).rgb, own.rgb) / LIKENESS;
-        precise float weight = exp(-0.5 * (away + unlike * unlike));
+        float away = dot(vec2(off), vec2(off)) / (PIXELS * PIXELS);
+        float unlike = relative_distance(texelFetch(feature, near, 0).rgb, own.rgb) / LIKENESS;
+        float weight = exp(-0.5 * (away + unlike * unlike));
         sum += weight * texelFetch(prediction, near, 0).rgb;
         total += weight;
     }
-    precise vec3 smooth_radiance = max(sum / total, 0.0);
-    precise vec3 fresh = texelFetch(light, texel, 0).rgb;
-    precise float left = max(1.0 - samples / max(end, samples), 0.0);
+    vec3 smooth_radiance = max(sum / total, 0.0);
+    vec3 fresh = texelFetch(light, texel, 0).rgb;
+    float left = max(1.0 - samples / max(end, samples), 0.0);
     shown = vec4(fresh + left * (smooth_radiance - fresh), own.a);
     if (!is_finite(shown.rgb)) shown.rgb = fresh;
 }

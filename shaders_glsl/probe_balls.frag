@@ -31,16 +31,16 @@ void main() {
         found = vec4(texelFetch(light, texel, 0).rgb, -1.0);
         return;
     }
-    precise vec3 direction = forward + place.x * right + place.y * up;
-    precise vec3 middle = middle_of_ball(probe);
-    precise float a = dot(direction, direction);
-    precise float b = dot(direction, middle);
-    precise float root = b * b - a * (dot(middle, middle) - radius * radius);
+    vec3 direction = forward + place.x * right + place.y * up;
+    vec3 middle = middle_of_ball(probe);
+    float a = dot(direction, direction);
+    float b = dot(direction, middle);
+    float root = b * b - a * (dot(middle, middle) - radius * radius);
     if (root < 0.0) discard;
-    precise float away = (b - sqrt(root)) / a;  // along the view axis: forward has length 1
-    precise vec4 behind = texelFetch(depth, texel, 0);
+    float away = (b - sqrt(root)) / a;  // along the view axis: forward has length 1
+    vec4 behind = texelFetch(depth, texel, 0);
     if (behind.a > 0.0 && away > behind.r) discard;
-    precise vec3 normal = normalized(away * direction - middle);
-    precise vec3 radiance = light_at_probe(probe, normal) / PI;
+    vec3 normal = normalized(away * direction - middle);
+    vec3 radiance = light_at_probe(probe, normal) / PI;
     found = vec4(radiance, distances_at_probe(probe, normal).x);
 }

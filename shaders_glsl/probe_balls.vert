@@ -28,24 +28,24 @@ out vec2 place;  // on the screen, from -1 to 1; upwards
 // Bounds of a Clipped, Perspective-Projected 3D Sphere", JCGT 2013). `across`: place of its middle on that axis. The
 // ball lies before the eye.
 vec2 ends_of_ball(float across, float away, float radius) {
-    precise float tangent = sqrt(across * across + away * away - radius * radius);
-    precise vec2 shift = vec2(-radius, radius);
+    float tangent = sqrt(across * across + away * away - radius * radius);
+    vec2 shift = vec2(-radius, radius);
     return (across * tangent + shift * away) / (away * tangent - shift * across);
 }
 
 void main() {
     probe = number;
-    precise vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
+    vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
     place = 2.0 * corner - 1.0;
     if (probe >= 0) {
-        precise vec3 middle = middle_of_ball(probe);
-        precise float away = dot(middle, forward);
-        precise float wide = length(right);
-        precise float tall = length(up);
-        precise vec2 across = vec2(dot(middle, right) / wide, dot(middle, up) / tall);
+        vec3 middle = middle_of_ball(probe);
+        float away = dot(middle, forward);
+        float wide = length(right);
+        float tall = length(up);
+        vec2 across = vec2(dot(middle, right) / wide, dot(middle, up) / tall);
         bool is_drawn = away > NEAREST * radius && place_of_probe(probe).a > 0.0;
-        precise vec2 x = is_drawn ? ends_of_ball(across.x, away, radius) / wide : vec2(0.0);
-        precise vec2 y = is_drawn ? ends_of_ball(across.y, away, radius) / tall : vec2(0.0);
+        vec2 x = is_drawn ? ends_of_ball(across.x, away, radius) / wide : vec2(0.0);
+        vec2 y = is_drawn ? ends_of_ball(across.y, away, radius) / tall : vec2(0.0);
         place = vec2(mix(x.x, x.y, corner.x), mix(y.x, y.y, corner.y));
     }
     gl_Position = vec4(place.x, -place.y, 0.0, 1.0);

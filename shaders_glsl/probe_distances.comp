@@ -20,16 +20,16 @@ layout(rgba32f) uniform image2D updated_map;
 const int TEXELS = (DISTANCE_SIDE + 2) * (DISTANCE_SIDE + 2);  // of a map
 
 void blend_distances(int probe, ivec2 texel) {
-    precise vec3 direction = direction_of_texel(inner_texel(texel, DISTANCE_SIDE), DISTANCE_SIDE);
-    precise float longest = LONGEST_DISTANCE * length(frame.probe_cell);
-    precise Blend blend = Blend(vec3(0.0), 0.0);
+    vec3 direction = direction_of_texel(inner_texel(texel, DISTANCE_SIDE), DISTANCE_SIDE);
+    float longest = LONGEST_DISTANCE * length(frame.probe_cell);
+    Blend blend = Blend(vec3(0.0), 0.0);
     for (int i = 0; i < update.rays; i += 1) {
-        precise float distance = min(abs(texelFetch(probe_rays, ivec2(i, probe), 0).a), longest);
-        precise float cosine = max(dot(directions[i].xyz, direction), 0.0);
+        float distance = min(abs(texelFetch(probe_rays, ivec2(i, probe), 0).a), longest);
+        float cosine = max(dot(directions[i].xyz, direction), 0.0);
         if (distance > 0.0) add_ray(blend, vec3(distance, distance * distance, 0.0), sharpened(cosine));
     }
     ivec2 at = corner_of_map(probe, DISTANCE_SIDE) + texel;
-    precise vec3 before = imageLoad(updated_map, at).rgb;
+    vec3 before = imageLoad(updated_map, at).rgb;
     imageStore(updated_map, at, vec4(blended(blend, before, update.kept), 1.0));
 }
 

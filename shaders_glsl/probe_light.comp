@@ -21,14 +21,14 @@ const int TEXELS = (LIGHT_SIDE + 2) * (LIGHT_SIDE + 2);  // of a map
 
 // Irradiance is PI times the mean of radiance, weighted by the cosine. Rays that end in a solid are left out.
 void blend_light(int probe, ivec2 texel) {
-    precise vec3 normal = direction_of_texel(inner_texel(texel, LIGHT_SIDE), LIGHT_SIDE);
-    precise Blend blend = Blend(vec3(0.0), 0.0);
+    vec3 normal = direction_of_texel(inner_texel(texel, LIGHT_SIDE), LIGHT_SIDE);
+    Blend blend = Blend(vec3(0.0), 0.0);
     for (int i = 0; i < update.rays; i += 1) {
-        precise vec4 found = texelFetch(probe_rays, ivec2(i, probe), 0);
+        vec4 found = texelFetch(probe_rays, ivec2(i, probe), 0);
         if (found.a > 0.0) add_ray(blend, PI * found.rgb, dot(directions[i].xyz, normal));
     }
     ivec2 at = corner_of_map(probe, LIGHT_SIDE) + texel;
-    precise vec3 before = imageLoad(updated_map, at).rgb;
+    vec3 before = imageLoad(updated_map, at).rgb;
     imageStore(updated_map, at, vec4(blended(blend, before, update.kept), 1.0));
 }
 

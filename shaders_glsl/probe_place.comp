@@ -21,12 +21,12 @@ layout(rgba32f) uniform image2D updated_map;
 void main() {
     int probe = 64 * (frame.first_tile + int(gl_WorkGroupID.x)) + int(gl_LocalInvocationIndex);
     if (probe >= frame.probe_count) return;
-    precise Surroundings around = nothing_around();
+    Surroundings around = nothing_around();
     for (int i = 0; i < update.rays; i += 1) {
         look(around, directions[i].xyz, texelFetch(probe_rays, ivec2(i, probe), 0).a);
     }
     ivec2 at = ivec2(probe % PROBES_IN_ROW, probe / PROBES_IN_ROW);
-    precise vec3 offset = imageLoad(updated_map, at).xyz;
-    precise vec3 next = update.purpose == FOR_PUSHES ? pushed(around, offset) : offset;
+    vec3 offset = imageLoad(updated_map, at).xyz;
+    vec3 next = update.purpose == FOR_PUSHES ? pushed(around, offset) : offset;
     imageStore(updated_map, at, vec4(next, is_in_solid(around) ? 0.0 : 1.0));
 }

@@ -15,12 +15,12 @@ layout(std430) buffer Lost { uint lost_samples; };
 layout(rgba32f) uniform writeonly image2D target_rays;  // a row per probe; a: distance (below 0: wrong face, 0: lost)
 
 // Radiance along a ray from a probe, and the distance to its hit.
-vec4 light_along(Ray ray, precise inout Sampler rng) {
-    precise Path path = start_path(ray);
+vec4 light_along(Ray ray, inout Sampler rng) {
+    Path path = start_path(ray);
     if (update.purpose != FOR_LIGHT) path.depth = frame.bounces;  // the path ends at its first hit
     bool goes = extend_path(path, rng);
     if (has_met && is_wrong_face(met_object, met_normal, ray.direction)) {
-        precise vec4 wrong = vec4(vec3(0.0), WRONG_FACE * met_distance);
+        vec4 wrong = vec4(vec3(0.0), WRONG_FACE * met_distance);
         return wrong;
     }
     while (goes && update.purpose == FOR_LIGHT) goes = extend_path(path, rng);
@@ -33,9 +33,9 @@ void main() {
     int probe = index / update.rays;
     int number = index % update.rays;
     if (probe >= frame.probe_count) return;
-    precise vec3 stand = middle_of_cell(probe) + place_of_probe(probe).xyz;
-    precise Sampler rng = sampler_at(ivec2(number, probe), update.number, update.seed);
-    precise vec4 found = light_along(Ray(stand, directions[number].xyz, NO_SHAPE, false), rng);
+    vec3 stand = middle_of_cell(probe) + place_of_probe(probe).xyz;
+    Sampler rng = sampler_at(ivec2(number, probe), update.number, update.seed);
+    vec4 found = light_along(Ray(stand, directions[number].xyz, NO_SHAPE, false), rng);
     if (COUNT_RAYS) found.rgb = vec3(rays_so_far);
     imageStore(target_rays, ivec2(number, probe), found);
     if ((HAS_SPHERE_TREE || HAS_TREE || HAS_MESH) && loop_was_cut) atomicAdd(lost_samples, 1u);

@@ -14,19 +14,19 @@ const float FEW = 2.0;       // samples as in the paper; with more, neighbours c
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);
     ivec2 last = textureSize(light, 0) - 1;
-    precise float object = texelFetch(position, texel, 0).w;
-    precise vec3 sum = vec3(0.0);
-    precise float total = 0.0;
+    float object = texelFetch(position, texel, 0).w;
+    vec3 sum = vec3(0.0);
+    float total = 0.0;
     for (int n = 0; n < 9; n += 1) {
         ivec2 off = ivec2(n % 3, n / 3) - 1;
         ivec2 near = texel + off;
         if (near != clamp(near, ivec2(0), last) || texelFetch(position, near, 0).w != object) continue;
         if (texelFetch(mean, near, 0).a <= 0.0) continue;
-        precise float weight = exp(-0.5 * dot(vec2(off), vec2(off)) / (PIXELS * PIXELS));
+        float weight = exp(-0.5 * dot(vec2(off), vec2(off)) / (PIXELS * PIXELS));
         if (off != ivec2(0)) weight *= min(FEW / samples, 1.0);
         sum += weight * texelFetch(light, near, 0).rgb;
         total += weight;
     }
-    precise vec3 radiance = total > 0.0 ? sum / total : vec3(0.0);
+    vec3 radiance = total > 0.0 ? sum / total : vec3(0.0);
     reconstructed = vec4(radiance, texelFetch(mean, texel, 0).a);
 }

@@ -23,14 +23,14 @@ out vec4 brought;
 
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);
-    precise vec4 surface = texelFetch(position, texel, 0);
-    precise vec4 facing = texelFetch(normal, texel, 0);
-    precise vec3 seen = seen_before(surface);
-    precise vec2 place = place_before(seen);
+    vec4 surface = texelFetch(position, texel, 0);
+    vec4 facing = texelFetch(normal, texel, 0);
+    vec3 seen = seen_before(surface);
+    vec2 place = place_before(seen);
     brought = vec4(0.0);
     if (place == NO_PLACE || has_flag(facing, LAMP_EDGE)) return;
-    precise vec4 found = history_at(history, place, surface.w, seen, facing);
-    precise float limit = has_flag(facing, SPECULAR | BLURRED) ? most_specular : most;
+    vec4 found = history_at(history, place, surface.w, seen, facing);
+    float limit = has_flag(facing, SPECULAR | BLURRED) ? most_specular : most;
     if (has_flag(facing, EDGE)) limit = min(limit, most_at_edges);
     brought = vec4(found.rgb, min(density * found.a, limit));
 }

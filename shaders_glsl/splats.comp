@@ -25,7 +25,7 @@ const float HIGH = 4294967296.0;  // 2^32
 
 // Takes the sum of a word and the one above it, and sets both to 0.
 float take_sum(int at) {
-    precise float sum = float(words[at + 1]) * HIGH + float(words[at]);
+    float sum = float(words[at + 1]) * HIGH + float(words[at]);
     words[at] = 0u;
     words[at + 1] = 0u;
     return sum;
@@ -33,7 +33,7 @@ float take_sum(int at) {
 
 // Adds radiance to a film at a texel.
 void add_observation(ivec2 texel, vec3 radiance) {
-    precise Pixel pixel = empty_pixel();
+    Pixel pixel = empty_pixel();
     if (frame.is_empty == 0) pixel = pixel_of(imageLoad(source_mean, texel), imageLoad(source_variance, texel));
     add_sample(pixel, radiance, 0);
     imageStore(target_mean, texel, vec4(pixel.mean, pixel.count));
@@ -46,14 +46,14 @@ void main() {
     ivec2 corner = tile_corner(picture, frame.first_tile + int(gl_WorkGroupID.x));
     ivec2 texel = corner + ivec2(gl_LocalInvocationID.xy);
     if (any(greaterThanEqual(texel, picture))) return;
-    precise float unit = splat_unit() / (frame.particles * float(frame.sample_count));
-    precise vec3 sum = vec3(0.0);
+    float unit = splat_unit() / (frame.particles * float(frame.sample_count));
+    vec3 sum = vec3(0.0);
     for (int layer = 0; layer < max(LAYERS, 1); layer += 1) {
         int at = 6 * ((layer * picture.y + texel.y) * picture.x + texel.x);
-        precise float red = take_sum(at);
-        precise float green = take_sum(at + 2);
-        precise float blue = take_sum(at + 4);
-        precise vec3 units = vec3(red, green, blue);
+        float red = take_sum(at);
+        float green = take_sum(at + 2);
+        float blue = take_sum(at + 4);
+        vec3 units = vec3(red, green, blue);
         sum += units;
         if (LAYERS > 0) add_observation(texel + ivec2((layer + 1) * picture.x, 0), units * unit);
     }

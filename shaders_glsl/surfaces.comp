@@ -13,7 +13,7 @@ void main() {
     ivec2 corner = tile_corner(picture, frame.first_tile + int(gl_WorkGroupID.x));
     ivec2 texel = corner + ivec2(gl_LocalInvocationID.xy);
     if (any(greaterThanEqual(texel, picture))) return;
-    precise MiddleSurface found = middle_surface(frame.origin + texel);
+    MiddleSurface found = middle_surface(frame.origin + texel);
     imageStore(target_position, texel, found.position);
     imageStore(target_normal, texel, found.normal);
 }

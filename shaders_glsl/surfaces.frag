@@ -6,7 +6,7 @@ layout(location = 0) out vec4 target_position;
 layout(location = 1) out vec4 target_normal;
 
 void main() {
-    precise MiddleSurface found = middle_surface(frame.origin + ivec2(gl_FragCoord.xy));
+    MiddleSurface found = middle_surface(frame.origin + ivec2(gl_FragCoord.xy));
     target_position = found.position;
     target_normal = found.normal;
 }

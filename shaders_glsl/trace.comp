@@ -22,9 +22,9 @@ layout(std430) buffer Lost { uint lost_samples; };
 
 Pixel load_pixel(ivec2 texel) {
     if (frame.is_empty != 0) return empty_pixel();  // the source may hold anything
-    precise vec4 mean = imageLoad(source_mean, texel);
-    precise vec4 variance = imageLoad(source_variance, texel);
-    precise vec4 block = vec4(0.0);
+    vec4 mean = imageLoad(source_mean, texel);
+    vec4 variance = imageLoad(source_variance, texel);
+    vec4 block = vec4(0.0);
     if (BLOCK > 1) block = imageLoad(source_block, texel);
     return Pixel(mean.rgb, mean.a, variance.rgb, variance.a, block.rgb, block.a);
 }
@@ -35,10 +35,10 @@ ivec2 layer_place(ivec2 texel, int slice) {
 }
 
 Layers load_layers(ivec2 texel) {
-    precise Layers layers = empty_layers();
+    Layers layers = empty_layers();
     if (LAYERS == 0 || frame.is_empty != 0) return layers;
     for (int i = 0; i < 2 * LAYERS; i += 1) {
-        precise vec4 mean = imageLoad(source_layers, layer_place(texel, i));
+        vec4 mean = imageLoad(source_layers, layer_place(texel, i));
         layers.means[i] = mean.rgb;
         layers.counts[i / DIVISOR] = mean.a;
     }
@@ -48,7 +48,7 @@ Layers load_layers(ivec2 texel) {
 void store_layers(ivec2 texel, Layers layers) {
     if (LAYERS == 0) return;
     for (int i = 0; i < 2 * LAYERS; i += 1) {
-        precise vec4 mean = vec4(layers.means[i], layers.counts[i / DIVISOR]);
+        vec4 mean = vec4(layers.means[i], layers.counts[i / DIVISOR]);
         imageStore(target_layers, layer_place(texel, i), mean);
     }
 }
@@ -58,8 +58,8 @@ void main() {
     ivec2 corner = tile_corner(picture, frame.first_tile + int(gl_WorkGroupID.x));
     ivec2 texel = corner + ivec2(gl_LocalInvocationID.xy);
     if (any(greaterThanEqual(texel, picture))) return;
-    precise Pixel pixel = load_pixel(texel);
-    precise Layers layers = load_layers(texel);
+    Pixel pixel = load_pixel(texel);
+    Layers layers = load_layers(texel);
     int lost = add_samples(pixel, layers, frame.origin + texel);
     if ((HAS_SPHERE_TREE || HAS_TREE || HAS_MESH) && lost > 0) atomicAdd(lost_samples, uint(lost));
     imageStore(target_mean, texel, vec4(pixel.mean, pixel.count));

@@ -13,16 +13,16 @@ layout(location = 2) out vec4 target_block;
 
 Pixel load_pixel(ivec2 texel) {
     if (frame.is_empty != 0) return empty_pixel();
-    precise vec4 mean = texelFetch(source_mean, texel, 0);
-    precise vec4 variance = texelFetch(source_variance, texel, 0);
-    precise vec4 block = vec4(0.0);
+    vec4 mean = texelFetch(source_mean, texel, 0);
+    vec4 variance = texelFetch(source_variance, texel, 0);
+    vec4 block = vec4(0.0);
     if (BLOCK > 1) block = texelFetch(source_block, texel, 0);
     return Pixel(mean.rgb, mean.a, variance.rgb, variance.a, block.rgb, block.a);
 }
 
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);
-    precise Pixel pixel = load_pixel(texel);
+    Pixel pixel = load_pixel(texel);
     add_samples(pixel, frame.origin + texel);
     target_mean = vec4(pixel.mean, pixel.count);
     target_variance = vec4(pixel.variance, pixel.observations);

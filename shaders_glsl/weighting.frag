@@ -15,16 +15,16 @@ out vec4 color;
 
 vec3 layer_mean(ivec2 texel, int layer) {
     ivec2 size = textureSize(mean, 0);
-    precise vec4 one = texelFetch(layers, size * ivec2(layer, 0) + texel, 0);
-    precise vec4 other = texelFetch(layers, size * ivec2(layer, 1) + texel, 0);
-    precise float count = max(one.a + other.a, 1.0);
+    vec4 one = texelFetch(layers, size * ivec2(layer, 0) + texel, 0);
+    vec4 other = texelFetch(layers, size * ivec2(layer, 1) + texel, 0);
+    float count = max(one.a + other.a, 1.0);
     return one.rgb * (one.a / count) + other.rgb * (other.a / count);
 }
 
 void main() {
     ivec2 size = textureSize(mean, 0);
     ivec2 texel = ivec2(gl_FragCoord.xy);  // the target is as large as the film
-    precise vec3 sum = vec3(0.0);
+    vec3 sum = vec3(0.0);
     for (int i = 0; i < layer_count; i += 1) sum += weights[i] * layer_mean(texel, i);
     if (layer_count == 0) sum = weights[0] * texelFetch(mean, min(texel, size - 1), 0).rgb;
     if (has_particles && layer_count == 0) sum += weights[0] * texelFetch(particles, min(texel, size - 1), 0).rgb;

@@ -86,7 +86,7 @@ class Probe:
                 f"    if (i >= out_.length() / {width}) return;",
                 *(_local(name, values) for name, values in arrays.items()),
                 self.setup,
-                f"    {_precise(self.returns)}{self.returns} result_ = {self.expression};",
+                f"    {self.returns} result_ = {self.expression};",
                 *(f"    out_[{width} * i + {k}] = {stored}({p});" for k, p in enumerate(parts)),
                 "}",
             ]
@@ -141,11 +141,6 @@ def _base(glsl_type: str) -> tuple[str, int]:
     return glsl_type, 1
 
 
-def _precise(kind: str) -> str:
-    """Return the qualifier of a local variable; integers and booleans are not rounded."""
-    return "precise " if kind == "float" or kind[:3] in ("vec", "mat") else ""
-
-
 def _block(name: str, values: Array) -> str:
     scalar = _SCALARS[values.dtype.kind]
     return f"layout(std430) readonly buffer In_{name} {{ {scalar} in_{name}[]; }};"
@@ -154,8 +149,8 @@ def _block(name: str, values: Array) -> str:
 def _local(name: str, values: Array) -> str:
     scalar, row = _SCALARS[values.dtype.kind], "i" if len(values) > 1 else "0"
     if values.ndim == 1:
-        return f"    {_precise(scalar)}{scalar} {name} = in_{name}[{row}];"
+        return f"    {scalar} {name} = in_{name}[{row}];"
     width = values.shape[1]
     prefix = "" if scalar == "float" else scalar[0]
     parts = ", ".join(f"in_{name}[{width} * {row} + {k}]" for k in range(width))
-    return f"    {_precise(scalar)}{prefix}vec{width} {name} = {prefix}vec{width}({parts});"
+    return f"    {prefix}vec{width} {name} = {prefix}vec{width}({parts});"

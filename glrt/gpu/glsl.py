@@ -7,7 +7,7 @@ that a render does not change while somebody edits a shader. `files_reread` read
 import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import count
 from pathlib import Path
 from typing import NamedTuple
@@ -16,6 +16,11 @@ from glrt.core.errors import RenderError
 from glrt.core.resources import folder
 
 _INCLUDE = re.compile(r'\s*#include\s+"([^"]+)"')
+_FLOATS = r"(?:float|d?vec[234]|d?mat[234](?:x[234])?|[A-Z]\w*)"  # types; names of structs are capitalised
+_GLOBAL = re.compile(rf"^(?={_FLOATS} \w+ =)")
+_LOCAL = re.compile(rf"^\s+(?:for \()?(?={_FLOATS}(?: ?\[\w*\])? \w+ ?[=;,\[])")
+_CHANGED = re.compile(rf"(?<!precise )\binout(?= {_FLOATS}\b)")
+_NO_FUNCTION = ("struct ", "layout", "uniform ", "buffer ")  # beginnings of other blocks
 # Mesa, AMD, Apple: "0:17(4): error"; NVIDIA: "0(17) : error"; glslang: "ERROR: 0:17:".
 _LOCATION = re.compile(r"\b0[:(](\d+)(?:\(\d+\)|\))?(?: ?:)?")
 _texts: dict[Path, str] = {}  # texts of files that have been read
@@ -33,7 +38,7 @@ class Line(NamedTuple):
 class Source:
     """The text of a shader: its version, a constant for each feature, and the files.
 
-    A comment names the file wherever it changes.
+    A comment names the file wherever it changes. Variables that hold floats become `precise`.
     """
 
     def __init__(
@@ -106,6 +111,25 @@ def files_reread() -> Iterator[None]:
         raise
 
 
+@lru_cache(maxsize=512)
+def with_precise_floats(text: str) -> str:
+    """Return a file's text with `precise` before variables and `inout` parameters of floats.
+
+    The driver may then neither fuse nor reorder arithmetic (GLSL 4.30, section 4.9). One line stays
+    one line. A declaration must begin its line, or a `for`; a function begins in column 0.
+    """
+    lines, is_in_function = [], False
+    for line in text.split("\n"):
+        line = _CHANGED.sub("precise inout", line)
+        line = (_LOCAL if is_in_function else _GLOBAL).sub(r"\g<0>precise ", line)
+        if line.startswith("}"):
+            is_in_function = False
+        elif line.endswith("{") and not line.startswith(_NO_FUNCTION):
+            is_in_function = True
+        lines.append(line)
+    return "\n".join(lines)
+
+
 def _text_of(path: Path) -> str:
     if path not in _texts:
         _texts[path] = path.read_text("utf-8", errors="replace")
@@ -136,7 +160,8 @@ class _Files:
             return []
         self._seen.add(name)
         lines: list[Line] = []
-        for number, line in enumerate(self._text(name, wanted_by).splitlines(), start=1):
+        text = self._text(name, wanted_by)
+        for number, line in enumerate(with_precise_floats(text).splitlines(), start=1):
             origin = f"{name}:{number}"
             match = _INCLUDE.match(line)
             lines += self.expand(match[1], origin) if match else [Line(line, origin)]

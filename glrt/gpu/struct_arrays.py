@@ -184,9 +184,9 @@ def _texture(struct: str, rows: Array) -> str:
         [
             f"uniform usampler2D {block};",
             f"{struct} {struct.lower()}_at(int index) {{",
-            f"    precise vec2 texel = vec2(1.0 / {width}.0, 1.0 / {height}.0);",
+            f"    vec2 texel = vec2(1.0 / {width}.0, 1.0 / {height}.0);",
             f"    ivec2 row = ivec2({texels_each} * (index & {ROWS - 1}), index >> {_BITS});",
-            "    precise vec2 place = vec2(row);",
+            "    vec2 place = vec2(row);",
             *fetches,
             f"    return {struct}({', '.join(fields)});",
             "}",

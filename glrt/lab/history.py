@@ -19,7 +19,7 @@ layout(std430) buffer State { vec4 state_[]; };
 
 // Gamma noise of a mean of 1 and a standard deviation of 1 / 2.
 float gamma_noise(int pixel, int frame) {
-    precise float product = 1.0;
+    float product = 1.0;
     for (int k = 0; k < 4; k += 1) {
         product *= unit_float(pcg_hash(pcg_hash(uint(4 * pixel + k)) + uint(frame)));
     }
@@ -52,9 +52,9 @@ int wrong_frames(int pixel, int first, int count) {
 """
 USUAL = """
 int wrong_frames(int pixel, int first, int count) {
-    precise mat4 P = mat4(START_COVARIANCE);
-    precise mat4x3 slopes = mat4x3(sample_of(pixel, 0), vec3(0.0), vec3(0.0), vec3(0.0));
-    precise vec3 z = sample_of(pixel, 0);
+    mat4 P = mat4(START_COVARIANCE);
+    mat4x3 slopes = mat4x3(sample_of(pixel, 0), vec3(0.0), vec3(0.0), vec3(0.0));
+    vec3 z = sample_of(pixel, 0);
     if (first > 1) {
         for (int j = 0; j < 4; j += 1) {
             P[j] = state_[STATE * pixel + j];
@@ -64,15 +64,15 @@ int wrong_frames(int pixel, int first, int count) {
     }
     int wrong = 0;
     for (int frame = first; frame < first + count; frame += 1) {
-        precise vec3 y = sample_of(pixel, frame);
+        vec3 y = sample_of(pixel, frame);
         z = y + FEATURE_SHARE * (z - y);
-        precise vec4 p = vec4(1.0, z);
-        precise vec4 spread = P * p;
-        precise vec4 gain = spread / (FORGETTING / sample_weight(y, z) + dot(p, spread));
+        vec4 p = vec4(1.0, z);
+        vec4 spread = P * p;
+        vec4 gain = spread / (FORGETTING / sample_weight(y, z) + dot(p, spread));
         slopes += outerProduct(y - slopes * p, gain);
         P = (P - outerProduct(gain, spread)) / FORGETTING;
         P = 0.5 * (P + transpose(P));
-        precise float sum = P[0].x + P[1].y + P[2].z + P[3].w;
+        float sum = P[0].x + P[1].y + P[2].z + P[3].w;
         if (IS_BOUNDED && sum > MOST_TRACE) P *= MOST_TRACE / sum;
         wrong += int(is_wrong(slopes * p));
     }
@@ -157,7 +157,7 @@ float shown_of(inout Prediction last, inout float exponential, vec3 y, int way) 
         return last.radiance.x;
     }
     last.model.feature = y + FEATURE_SHARE * (last.model.feature - y);
-    precise vec4 p = vec4(1.0, last.model.feature);
+    vec4 p = vec4(1.0, last.model.feature);
     last.model.fit = corrected(last.model.fit, p, y, 1.0);
     return (last.model.fit.slopes * p).x;
 }

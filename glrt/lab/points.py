@@ -17,9 +17,9 @@ SUM = f"""
         }}
         sum += product;
     }}"""
-SHUFFLED = "vec2 drawn(precise inout Sampler rng) { return next_2d(rng); }"
+SHUFFLED = "vec2 drawn(inout Sampler rng) { return next_2d(rng); }"
 IN_ORDER = """
-vec2 drawn(precise inout Sampler rng) {
+vec2 drawn(inout Sampler rng) {
     rng.dimension += STEP;
     return next_of_64(rng, 0u, (rng.dimension & 1u) == 0u);
 }"""

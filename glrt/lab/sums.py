@@ -14,22 +14,22 @@ PORTION = 1 << 15  # samples per dispatch, below the loop limit of software driv
 DARK, BRIGHT, SHARE = 0.1, 0.9, 0.3  # samples of a pixel on an edge, and the share of bright ones
 SAMPLE = "pcg_hash(seed ^ uint(k) * 0x9E3779B9u) < bright"
 GATHER = f"""
-    precise float ours = state.x, plain = state.y, sum = state.z, coarse = state.w;
+    float ours = state.x, plain = state.y, sum = state.z, coarse = state.w;
     for (int k = first; k < first + count; ++k) {{
-        precise float x = {SAMPLE} ? {BRIGHT} : {DARK};
-        precise float w = 1.0 / float(k + 1);
+        float x = {SAMPLE} ? {BRIGHT} : {DARK};
+        float w = 1.0 / float(k + 1);
         ours = next_mean(vec3(ours), vec3(x), float(k + 1)).x;
         plain = plain + (x - plain) * w;
         sum = sum + x;
         coarse = unpackHalf2x16(packHalf2x16(vec2(coarse + (x - coarse) * w, 0.0))).x;
     }}"""
 MIX = f"""
-    precise float mixed = state;
+    float mixed = state;
     uint hits = total;
     for (int k = first; k < first + count; ++k) {{
         bool hit = {SAMPLE};
-        precise float x = hit ? {BRIGHT} : {DARK};
-        precise float w = 1.0 / float(k + 1);
+        float x = hit ? {BRIGHT} : {DARK};
+        float w = 1.0 / float(k + 1);
         mixed = mixed * (1.0 - w) + x * w;
         hits += uint(hit);
     }}"""

@@ -5,12 +5,12 @@ const int ALBEDO_STEPS = 64;
 
 // The two numbers at an angle to the normal; `first`: the first row of the table.
 vec2 albedos(int first, float cosine) {
-    precise float place = sqrt(min(cosine, 1.0)) * float(ALBEDO_STEPS);
+    float place = sqrt(min(cosine, 1.0)) * float(ALBEDO_STEPS);
     int step = min(int(place), ALBEDO_STEPS - 1);
-    precise float beyond = place - float(step);
-    precise Albedo row = albedo_at(first + step);
-    precise vec2 start = vec2(row.one, row.other);
-    precise vec2 end = vec2(row.one_end, row.other_end);
-    precise vec2 share = start + beyond * (end - start);
+    float beyond = place - float(step);
+    Albedo row = albedo_at(first + step);
+    vec2 start = vec2(row.one, row.other);
+    vec2 end = vec2(row.one_end, row.other_end);
+    vec2 share = start + beyond * (end - start);
     return share;
 }

@@ -8,7 +8,7 @@ bool is_delta(Material material) {
 }
 
 vec3 eval_material(Vertex vertex, vec3 wi) {
-    precise Material material = vertex.material;
+    Material material = vertex.material;
     if (HAS_ROUGH_METAL && material.kind == METAL) return eval_metal(vertex, wi);
     if (HAS_ROUGH_GLASS && material.kind == DIELECTRIC) return eval_rough_dielectric(vertex, wi);
     if (HAS_PRINCIPLED && material.kind == PRINCIPLED) return eval_principled(vertex, wi);
@@ -22,21 +22,21 @@ float pdf_material(Vertex vertex, vec3 wi) {
     return pdf_matte(wi);
 }
 
-Scattering sample_material(Vertex vertex, precise inout Sampler rng) {
-    precise Material material = vertex.material;
+Scattering sample_material(Vertex vertex, inout Sampler rng) {
+    Material material = vertex.material;
     if (HAS_DIELECTRIC && material.kind == DIELECTRIC) {
-        precise float choice = next_1d(rng);
+        float choice = next_1d(rng);
         if (!is_rough_glass(material)) return sample_dielectric(vertex, choice);
-        precise vec2 u = next_2d(rng);
+        vec2 u = next_2d(rng);
         return sample_rough_dielectric(vertex, choice, u);
     }
     if (HAS_PANE && material.kind == PANE) return sample_pane(vertex, next_1d(rng));
     if (HAS_PRINCIPLED && material.kind == PRINCIPLED) {
-        precise float choice = next_1d(rng);
-        precise vec2 u = next_2d(rng);
+        float choice = next_1d(rng);
+        vec2 u = next_2d(rng);
         return sample_principled(vertex, choice, u);
     }
-    precise vec2 u = next_2d(rng);
+    vec2 u = next_2d(rng);
     if ((HAS_MIRROR || HAS_ROUGH_METAL) && material.kind == METAL) return sample_metal(vertex, u);
     return sample_matte(vertex, u);
 }

@@ -1,17 +1,17 @@
 // Lambert's law.
 
 vec3 eval_matte(vec3 color, vec3 wi) {
-    precise vec3 value = color * (wi.z / PI);
+    vec3 value = color * (wi.z / PI);
     return value;
 }
 
 float pdf_matte(vec3 wi) {
-    precise float pdf = wi.z / PI;
+    float pdf = wi.z / PI;
     return pdf;
 }
 
 Scattering sample_matte(Vertex vertex, vec2 u) {
-    precise vec3 wi = sample_cosine_hemisphere(u);
-    precise vec3 direction = normalized(vertex.frame * wi);
+    vec3 wi = sample_cosine_hemisphere(u);
+    vec3 direction = normalized(vertex.frame * wi);
     return Scattering(direction, vertex.material.color, pdf_matte(wi), 1.0, false);
 }

@@ -3,16 +3,16 @@
 
 // Reflectance of a pane whose single face has F: F + F (1 - F)^2 + F^3 (1 - F)^2 + ... = 2 F / (1 + F).
 float pane_reflectance(float cosine, float ior) {
-    precise float face = fresnel(cosine, 1.0 / ior);
-    precise float reflectance = 2.0 * face / (1.0 + face);
+    float face = fresnel(cosine, 1.0 / ior);
+    float reflectance = 2.0 * face / (1.0 + face);
     return reflectance;
 }
 
 Scattering sample_pane(Vertex vertex, float u) {
-    precise vec3 incoming = -(vertex.frame * vertex.wo);
+    vec3 incoming = -(vertex.frame * vertex.wo);
     bool reflects = u < pane_reflectance(vertex.wo.z, vertex.material.ior);
     if (reflects) incoming += 2.0 * vertex.wo.z * vertex.frame[2];
-    precise vec3 direction = normalized(incoming);
-    precise vec3 weight = reflects ? vec3(1.0) : crossing_tint(vertex.material);
+    vec3 direction = normalized(incoming);
+    vec3 weight = reflects ? vec3(1.0) : crossing_tint(vertex.material);
     return Scattering(direction, weight, 0.0, 1.0, !reflects);
 }

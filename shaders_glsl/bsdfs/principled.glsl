@@ -12,23 +12,23 @@ const float COAT_F0 = 0.04;  // of an index of refraction of 1.5
 
 // The part of a surface that a path meets, where the surface is glass in part: the glass, or the rest.
 Material met_part(Material material, float u) {
-    precise Gloss gloss = gloss_at(material.details);
-    precise float share = gloss.transmission;
+    Gloss gloss = gloss_at(material.details);
+    float share = gloss.transmission;
     if (HAS_TRANSMISSION_MAP) {
         share *= clamp(material.crossed, 0.0, 1.0);
-        precise float whole = material.metallic * (1.0 - gloss.transmission);  // of the whole; below of the rest
+        float whole = material.metallic * (1.0 - gloss.transmission);  // of the whole; below of the rest
         if (share < 1.0) material.metallic = whole / (1.0 - share);
     }
     if (u >= share) return material;
-    precise Material glass = material_at(gloss.glass);
+    Material glass = material_at(gloss.glass);
     glass.color = material.color;
     return glass;
 }
 
 float schlick_weight(float cosine) {
-    precise float x = max(1.0 - cosine, 0.0);
-    precise float x2 = x * x;
-    precise float weight = x2 * x2 * x;
+    float x = max(1.0 - cosine, 0.0);
+    float x2 = x * x;
+    float weight = x2 * x2 * x;
     return weight;
 }
 
@@ -44,19 +44,19 @@ struct Principled {
 // Share of the light that facets lose to each other which comes back, F^2 E / (1 - F (1 - E)). The mean reflectance F
 // is f0 + (f90 - f0) / 21.
 vec3 sent_back(vec3 f0, float f90, float kept) {
-    precise vec3 mean = f0 + (f90 - f0) / 21.0;
-    precise vec3 share = mean * mean * kept / (1.0 - mean * (1.0 - kept));
+    vec3 mean = f0 + (f90 - f0) / 21.0;
+    vec3 share = mean * mean * kept / (1.0 - mean * (1.0 - kept));
     return share;
 }
 
 Principled principled_of(Material material) {
-    precise Gloss gloss = gloss_at(material.details);
-    precise vec3 f0 = gloss.f0 + material.metallic * (material.color - gloss.f0);
-    precise float f90 = gloss.f90 + material.metallic * (1.0 - gloss.f90);
-    precise vec3 of_dielectric = sent_back(gloss.f0, gloss.f90, gloss.kept);
-    precise vec3 of_metal = sent_back(material.color, 1.0, gloss.kept);
-    precise vec3 again = of_dielectric + material.metallic * (of_metal - of_dielectric);
-    precise vec3 base = (1.0 - material.metallic) * material.color;
+    Gloss gloss = gloss_at(material.details);
+    vec3 f0 = gloss.f0 + material.metallic * (material.color - gloss.f0);
+    float f90 = gloss.f90 + material.metallic * (1.0 - gloss.f90);
+    vec3 of_dielectric = sent_back(gloss.f0, gloss.f90, gloss.kept);
+    vec3 of_metal = sent_back(material.color, 1.0, gloss.kept);
+    vec3 again = of_dielectric + material.metallic * (of_metal - of_dielectric);
+    vec3 base = (1.0 - material.metallic) * material.color;
     return Principled(gloss, f0, f90, again, base);
 }
 
@@ -68,35 +68,35 @@ struct Shares {
 };
 
 Shares shares_of(Gloss gloss, float cosine) {
-    precise vec2 facets = albedos(gloss.first, cosine);
-    precise float lost = 1.0 - facets.x - facets.y;
-    precise float taken = gloss.brightest * facets.x + gloss.f90 * facets.y + gloss.again * lost;
-    precise float left = 1.0 - taken;
+    vec2 facets = albedos(gloss.first, cosine);
+    float lost = 1.0 - facets.x - facets.y;
+    float taken = gloss.brightest * facets.x + gloss.f90 * facets.y + gloss.again * lost;
+    float left = 1.0 - taken;
     return Shares(facets, lost, left);
 }
 
 // The share of light from a direction that the coat leaves.
 float below_coat(Gloss gloss, float cosine) {
     if (!HAS_COAT || gloss.coat == 0.0) return 1.0;
-    precise vec2 facets = albedos(gloss.first_coat, cosine);
-    precise float left = 1.0 - gloss.coat * (COAT_F0 * facets.x + facets.y);
+    vec2 facets = albedos(gloss.first_coat, cosine);
+    float left = 1.0 - gloss.coat * (COAT_F0 * facets.x + facets.y);
     return left;
 }
 
 float mean_of(vec3 color) {
-    precise float mean = (color.x + color.y + color.z) / 3.0;
+    float mean = (color.x + color.y + color.z) / 3.0;
     return mean;
 }
 
 // Chances that a sample is of the coat, of the facets, or of the base with the light that facets lose. They are about
 // the shares of these in light that comes from wo.
 vec3 lobe_chances(Principled it, float cosine, Shares shares) {
-    precise float left = below_coat(it.gloss, cosine);
-    precise float facets = left * mean_of(it.f0 * shares.facets.x + it.f90 * shares.facets.y);
-    precise float base = left * mean_of(it.base * shares.base + it.again * shares.lost);
-    precise float all = 1.0 - left + facets + base;
+    float left = below_coat(it.gloss, cosine);
+    float facets = left * mean_of(it.f0 * shares.facets.x + it.f90 * shares.facets.y);
+    float base = left * mean_of(it.base * shares.base + it.again * shares.lost);
+    float all = 1.0 - left + facets + base;
     if (all <= 0.0) return vec3(0.0, 0.0, 1.0);
-    precise vec3 chances = vec3(1.0 - left, facets, base) / all;
+    vec3 chances = vec3(1.0 - left, facets, base) / all;
     return chances;
 }
 
@@ -108,27 +108,27 @@ struct ColorLobe {
 
 // Value and density of all parts that are not deltas; h: half vector.
 ColorLobe principled_lobe(Principled it, Vertex vertex, vec3 wi, vec3 h) {
-    precise Gloss gloss = it.gloss;
-    precise Shares from = shares_of(gloss, wi.z);
-    precise Shares to = shares_of(gloss, vertex.wo.z);
-    precise vec3 chances = lobe_chances(it, vertex.wo.z, to);
-    precise float even = wi.z / PI;
-    precise float pdf = chances.z * even;
-    precise vec3 value = it.again * (from.lost * to.lost * gloss.spread);
+    Gloss gloss = it.gloss;
+    Shares from = shares_of(gloss, wi.z);
+    Shares to = shares_of(gloss, vertex.wo.z);
+    vec3 chances = lobe_chances(it, vertex.wo.z, to);
+    float even = wi.z / PI;
+    float pdf = chances.z * even;
+    vec3 value = it.again * (from.lost * to.lost * gloss.spread);
     value += it.base * (from.base * to.base * gloss.even_base);
     value *= even;
-    precise float alpha = vertex.material.alpha;
-    precise float edge = schlick_weight(dot(vertex.wo, h));
+    float alpha = vertex.material.alpha;
+    float edge = schlick_weight(dot(vertex.wo, h));
     if (alpha > 0.0) {
-        precise float density = pdf_ggx(alpha, vertex.wo, h);
+        float density = pdf_ggx(alpha, vertex.wo, h);
         value += (it.f0 + (it.f90 - it.f0) * edge) * (density * ggx_weight(alpha, vertex.wo, wi));
         pdf += chances.y * density;
     }
     if (!HAS_COAT || gloss.coat == 0.0) return ColorLobe(value, pdf);
     value *= min(below_coat(gloss, wi.z), below_coat(gloss, vertex.wo.z));
     if (gloss.coat_alpha > 0.0) {
-        precise float density = pdf_ggx(gloss.coat_alpha, vertex.wo, h);
-        precise float reflected = gloss.coat * (COAT_F0 + (1.0 - COAT_F0) * edge);
+        float density = pdf_ggx(gloss.coat_alpha, vertex.wo, h);
+        float reflected = gloss.coat * (COAT_F0 + (1.0 - COAT_F0) * edge);
         value += reflected * (density * ggx_weight(gloss.coat_alpha, vertex.wo, wi));
         pdf += chances.x * density;
     }
@@ -136,32 +136,32 @@ ColorLobe principled_lobe(Principled it, Vertex vertex, vec3 wi, vec3 h) {
 }
 
 vec3 eval_principled(Vertex vertex, vec3 wi) {
-    precise Principled it = principled_of(vertex.material);
-    precise vec3 h = normalized(vertex.wo + wi);
+    Principled it = principled_of(vertex.material);
+    vec3 h = normalized(vertex.wo + wi);
     return principled_lobe(it, vertex, wi, h).value;
 }
 
 float pdf_principled(Vertex vertex, vec3 wi) {
-    precise Principled it = principled_of(vertex.material);
-    precise vec3 h = normalized(vertex.wo + wi);
+    Principled it = principled_of(vertex.material);
+    vec3 h = normalized(vertex.wo + wi);
     return principled_lobe(it, vertex, wi, h).pdf;
 }
 
 Scattering sample_principled(Vertex vertex, float choice, vec2 u) {
-    precise Principled it = principled_of(vertex.material);
-    precise Gloss gloss = it.gloss;
-    precise float cosine = vertex.wo.z;
-    precise vec3 chances = lobe_chances(it, cosine, shares_of(gloss, cosine));
+    Principled it = principled_of(vertex.material);
+    Gloss gloss = it.gloss;
+    float cosine = vertex.wo.z;
+    vec3 chances = lobe_chances(it, cosine, shares_of(gloss, cosine));
     bool is_coat = HAS_COAT && choice < chances.x;
-    precise vec3 h = vec3(0.0, 0.0, 1.0);
-    precise vec3 wi = vec3(-vertex.wo.xy, cosine);
+    vec3 h = vec3(0.0, 0.0, 1.0);
+    vec3 wi = vec3(-vertex.wo.xy, cosine);
     if (is_coat || choice < chances.x + chances.y) {
-        precise float alpha = is_coat ? gloss.coat_alpha : vertex.material.alpha;
+        float alpha = is_coat ? gloss.coat_alpha : vertex.material.alpha;
         if (alpha == 0.0) {
-            precise float edge = schlick_weight(cosine);
-            precise vec3 weight = (it.f0 + (it.f90 - it.f0) * edge) * below_coat(gloss, cosine) / chances.y;
+            float edge = schlick_weight(cosine);
+            vec3 weight = (it.f0 + (it.f90 - it.f0) * edge) * below_coat(gloss, cosine) / chances.y;
             if (is_coat) weight = vec3(gloss.coat * (COAT_F0 + (1.0 - COAT_F0) * edge) / chances.x);
-            precise vec3 mirrored = normalized(vertex.frame * wi);
+            vec3 mirrored = normalized(vertex.frame * wi);
             return Scattering(mirrored, weight, 0.0, 1.0, false);
         }
         h = sample_ggx_normal(alpha, vertex.wo, u);
@@ -171,9 +171,9 @@ Scattering sample_principled(Vertex vertex, float choice, vec2 u) {
         h = normalized(vertex.wo + wi);
     }
     if (wi.z <= 0.0) return absorbed();
-    precise ColorLobe lobe = principled_lobe(it, vertex, wi, h);
+    ColorLobe lobe = principled_lobe(it, vertex, wi, h);
     if (lobe.pdf == 0.0) return absorbed();
-    precise vec3 direction = normalized(vertex.frame * wi);
-    precise vec3 weight = lobe.value / lobe.pdf;
+    vec3 direction = normalized(vertex.frame * wi);
+    vec3 weight = lobe.value / lobe.pdf;
     return Scattering(direction, weight, lobe.pdf, 1.0, false);
 }

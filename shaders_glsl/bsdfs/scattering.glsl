@@ -22,7 +22,7 @@ struct Scattering {
 
 // `is_outside`: whether wo is on the outer side of the surface.
 Vertex vertex_of(mat3 frame, vec3 wo, Material material, bool is_outside) {
-    precise float eta = is_outside ? 1.0 / material.ior : material.ior;
+    float eta = is_outside ? 1.0 / material.ior : material.ior;
     return Vertex(frame, wo, material, is_outside, eta);
 }
 

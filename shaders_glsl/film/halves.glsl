@@ -6,7 +6,7 @@ struct Layers {
 };
 
 Layers empty_layers() {
-    precise Layers layers;
+    Layers layers;
     for (int i = 0; i < 2 * LAYERS; i += 1) layers.means[i] = vec3(0.0);
     layers.counts[0] = 0.0;
     layers.counts[1] = 0.0;
@@ -14,13 +14,13 @@ Layers empty_layers() {
 }
 
 // Adds the light of the sample number `index` by layers.
-void add_layers(precise inout Layers layers, Path path, int index) {
+void add_layers(inout Layers layers, Path path, int index) {
     if (!is_finite(path.radiance)) return;
     int side = (index / BLOCK) % 2;
     layers.counts[side] += 1.0;
     for (int i = 0; i < 2 * LAYERS; i += 1) {
         if (i / DIVISOR != side) continue;
-        precise vec3 light = path.layers[i % DIVISOR];
+        vec3 light = path.layers[i % DIVISOR];
         layers.means[i] = next_mean(layers.means[i], light, layers.counts[side]);
     }
 }

@@ -6,7 +6,7 @@ const vec3 NO_LAYERS[MOST_LAYERS] = vec3[MOST_LAYERS](
     vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
 
 // The last layer takes the light of all layers beyond it.
-void add_to_layer(precise inout vec3 layers[MOST_LAYERS], vec3 light, int layer) {
+void add_to_layer(inout vec3 layers[MOST_LAYERS], vec3 light, int layer) {
     for (int i = 0; i < LAYERS; i += 1) {
         if (i == min(layer, LAYERS - 1)) layers[i] += light;
     }

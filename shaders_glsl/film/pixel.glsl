@@ -26,23 +26,23 @@ Pixel pixel_of(vec4 mean, vec4 variance) {
 // of m. If it were always rounded the same way, the mean of an edge, where samples have two values, would
 // be off by ten times its noise after 2^20 samples. So steps are dithered.
 vec3 next_mean(vec3 mean, vec3 x, float count) {
-    precise float weight = 1.0 / count;
-    precise vec3 step = (x - mean) * weight;
+    float weight = 1.0 / count;
+    vec3 step = (x - mean) * weight;
     uvec3 exponent = floatBitsToUint(mean) & uvec3(0x7F800000u);
-    precise vec3 last_place = uintBitsToFloat(exponent) * 1.1920928955078125e-7;
-    precise vec3 dither = golden_turn(uint(count)) * last_place * vec3(notEqual(step, vec3(0.0)));
-    precise vec3 next = mean + (step + dither);
+    vec3 last_place = uintBitsToFloat(exponent) * 1.1920928955078125e-7;
+    vec3 dither = golden_turn(uint(count)) * last_place * vec3(notEqual(step, vec3(0.0)));
+    vec3 next = mean + (step + dither);
     return next;
 }
 
 // Welford's form, after the mean has moved by its share of the observation x: x less the mean
 // before equals x less the mean now, times n / (n - 1).
-void end_observation(precise inout Pixel pixel) {
+void end_observation(inout Pixel pixel) {
     pixel.observations += 1.0;
     if (pixel.observations > 1.0) {
-        precise float count = pixel.observations;
-        precise vec3 after = pixel.block - pixel.mean;
-        precise vec3 before = after * (count / (count - 1.0));
+        float count = pixel.observations;
+        vec3 after = pixel.block - pixel.mean;
+        vec3 before = after * (count / (count - 1.0));
         pixel.variance = next_mean(pixel.variance, before * after, count);
     }
     pixel.block = vec3(0.0);
@@ -50,7 +50,7 @@ void end_observation(precise inout Pixel pixel) {
 }
 
 // Adds the sample number `index`, from 0; a sample that is not finite is left out.
-void add_sample(precise inout Pixel pixel, vec3 x, int index) {
+void add_sample(inout Pixel pixel, vec3 x, int index) {
     if (is_finite(x)) {
         pixel.count += 1.0;
         pixel.mean = next_mean(pixel.mean, x, pixel.count);
@@ -61,6 +61,6 @@ void add_sample(precise inout Pixel pixel, vec3 x, int index) {
 }
 
 // Drops the samples from number `index` to before `end`, which are lost: an observation among them may end.
-void drop_samples(precise inout Pixel pixel, int index, int end) {
+void drop_samples(inout Pixel pixel, int index, int end) {
     if (end / BLOCK > index / BLOCK && pixel.begun > 0.0) end_observation(pixel);
 }

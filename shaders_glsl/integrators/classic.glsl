@@ -21,8 +21,8 @@ bool is_followed(Material material) {
 
 // x^n by squaring: pow differs between drivers.
 float whole_power(float x, int n) {
-    precise float result = 1.0;
-    precise float square = x;
+    float result = 1.0;
+    float square = x;
     int rest = n;
     for (; rest > 0; rest /= 2) {
         if (rest % 2 == 1) result *= square;
@@ -35,7 +35,7 @@ float whole_power(float x, int n) {
 // The exponent of a half vector's highlight that is as wide as the GGX lobe. A highlight around the
 // mirrored direction is as wide with a quarter of this exponent, since its angle is twice as large.
 int highlight_exponent(float alpha) {
-    precise float exponent = min(2.0 / (alpha * alpha), float(MOST_EXPONENT)) - 2.0;
+    float exponent = min(2.0 / (alpha * alpha), float(MOST_EXPONENT)) - 2.0;
     return max(int(exponent), 0);
 }
 
@@ -44,25 +44,25 @@ int highlight_exponent(float alpha) {
 float eval_highlight(float alpha, vec3 wo, vec3 wi) {
     int n = highlight_exponent(alpha);
     if (MODEL == BLINN) {
-        precise vec3 h = normalized(wo + wi);
-        precise float rest = whole_power(sqrt(0.5), n) + float(n);
-        precise float scale = float(n + 2) / (2.0 * PI) * (float(n + 4) / (2.0 * 2.0 * rest));
-        precise float value = scale * whole_power(h.z, n) * wi.z;
+        vec3 h = normalized(wo + wi);
+        float rest = whole_power(sqrt(0.5), n) + float(n);
+        float scale = float(n + 2) / (2.0 * PI) * (float(n + 4) / (2.0 * 2.0 * rest));
+        float value = scale * whole_power(h.z, n) * wi.z;
         return value;
     }
     int m = n / 4;
-    precise float along = max(dot(vec3(-wo.xy, wo.z), wi), 0.0);
-    precise float scale = float(m + 2) / (2.0 * PI);
-    precise float value = scale * whole_power(along, m) * wi.z;
+    float along = max(dot(vec3(-wo.xy, wo.z), wi), 0.0);
+    float scale = float(m + 2) / (2.0 * PI);
+    float value = scale * whole_power(along, m) * wi.z;
     return value;
 }
 
 vec3 eval_local(Vertex vertex, vec3 wi) {
-    precise Material material = vertex.material;
+    Material material = vertex.material;
     if (material.kind == MATTE) return eval_matte(material.color, wi);
     if (HAS_PRINCIPLED && material.kind == PRINCIPLED) return eval_principled(vertex, wi);
     if (!HAS_ROUGH_METAL || material.kind != METAL || material.alpha == 0.0) return vec3(0.0);
-    precise vec3 value = head_on_reflectance(material) * eval_highlight(material.alpha, vertex.wo, wi);
+    vec3 value = head_on_reflectance(material) * eval_highlight(material.alpha, vertex.wo, wi);
     return value;
 }
 
@@ -75,24 +75,24 @@ struct PointLamp {
 
 PointLamp point_lamp(int shape) {
     if (is_sphere_lamp(shape)) {
-        precise Sphere sphere = sphere_at(shape);
-        precise float disk = PI * sphere.radius * sphere.radius;
+        Sphere sphere = sphere_at(shape);
+        float disk = PI * sphere.radius * sphere.radius;
         return PointLamp(sphere.center, disk, vec3(0.0), sphere.material);
     }
     if (is_triangle_lamp(shape)) {
-        precise LampTriangle triangle = lamp_triangle(shape);
-        precise vec3 middle = triangle.a + (triangle.edge_b + triangle.edge_c) / 3.0;
+        LampTriangle triangle = lamp_triangle(shape);
+        vec3 middle = triangle.a + (triangle.edge_b + triangle.edge_c) / 3.0;
         return PointLamp(middle, 0.0, triangle.across, mesh_at(triangle.mesh).material);
     }
     if (is_disk_lamp(shape)) {
-        precise Disk round = disk_lamp(shape);
-        precise vec3 across = PI * round.radius * round.radius * round.normal;
+        Disk round = disk_lamp(shape);
+        vec3 across = PI * round.radius * round.radius * round.normal;
         return PointLamp(round.center, 0.0, across, round.material);
     }
     if (is_quad_lamp(shape)) {
-        precise Quad quad = quad_lamp(shape);
-        precise vec3 center = quad.corner + 0.5 * (quad.edge_u + quad.edge_v);
-        precise vec3 facing = cross(quad.edge_u, quad.edge_v);  // of either sign
+        Quad quad = quad_lamp(shape);
+        vec3 center = quad.corner + 0.5 * (quad.edge_u + quad.edge_v);
+        vec3 facing = cross(quad.edge_u, quad.edge_v);  // of either sign
         if (HAS_ONE_SIDED && dot(facing, quad.normal) < 0.0) facing = -facing;
         return PointLamp(center, 0.0, facing, quad.material);
     }
@@ -101,18 +101,18 @@ PointLamp point_lamp(int shape) {
 
 // Light of a lamp in its centre, scattered towards wo. The direction of `from` is ignored.
 vec3 point_light(Vertex vertex, Ray from, int shape) {
-    precise PointLamp lamp = point_lamp(shape);
-    precise vec3 to_center = lamp.center - from.origin;
-    precise float distance = length(to_center);
+    PointLamp lamp = point_lamp(shape);
+    vec3 to_center = lamp.center - from.origin;
+    float distance = length(to_center);
     if (shape == from.origin_shape || distance == 0.0) return vec3(0.0);
     from.direction = to_center / distance;
-    precise vec3 wi = to_local(vertex.frame, from.direction);
+    vec3 wi = to_local(vertex.frame, from.direction);
     if (wi.z <= 0.0) return vec3(0.0);
     if (MODEL == WHITTED && occluded(from, distance, shape)) return vec3(0.0);
-    precise float across = lamp.disk + abs(dot(lamp.facing, from.direction));
+    float across = lamp.disk + abs(dot(lamp.facing, from.direction));
     bool is_front = dot(lamp.facing, from.direction) < 0.0;
-    precise vec3 emission = emitted(material_at(lamp.material), -from.direction, is_front);
-    precise vec3 irradiance = across / distance / distance * emission;
-    precise vec3 radiance = irradiance * eval_local(vertex, wi);
+    vec3 emission = emitted(material_at(lamp.material), -from.direction, is_front);
+    vec3 irradiance = across / distance / distance * emission;
+    vec3 radiance = irradiance * eval_local(vertex, wi);
     return radiance;
 }

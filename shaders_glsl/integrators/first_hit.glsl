@@ -15,7 +15,7 @@ vec3 albedo_of(Material material) {
 // Albedo and normal are 0 where a ray meets nothing. These samples count, as denoisers expect.
 vec3 aov_of(int aov, Ray ray, Hit hit) {
     if (hit.shape == NO_SHAPE) return aov == DEPTH || aov == POSITION ? nothing_met() : vec3(0.0);
-    precise Surface surface = surface_at(ray, hit);
+    Surface surface = surface_at(ray, hit);
     if (aov == ALBEDO) return albedo_of(material_of(ray, surface));
     if (aov == NORMAL) return dot(surface.normal, ray.direction) > 0.0 ? -surface.normal : surface.normal;
     if (aov == DEPTH) return vec3(dot(surface.position, frame.camera.forward));
@@ -25,31 +25,31 @@ vec3 aov_of(int aov, Ray ray, Hit hit) {
 
 // 1 + the number of the object in the middle of the pixel, seen through the middle of the lens; 0 for none.
 Pixel object_of(ivec2 place) {
-    precise Ray ray = middle_ray(place);
+    Ray ray = middle_ray(place);
     leave_vertex(0u, 0);  // one random number for all pixels: a partly transparent object is seen whole, or not at all
-    precise Hit hit = HAS_HOLE ? solid_hit(ray, FAR, NO_SHAPE) : closest_hit(ray);
-    precise Pixel pixel = empty_pixel();
+    Hit hit = HAS_HOLE ? solid_hit(ray, FAR, NO_SHAPE) : closest_hit(ray);
+    Pixel pixel = empty_pixel();
     pixel.mean = vec3(hit.shape == NO_SHAPE ? 0.0 : float(1 + object_number(hit.shape)));
     pixel.count = 1.0;
     return pixel;
 }
 
-void add_aov(precise inout Pixel pixel, int aov, Ray ray, Hit hit, int index) {
+void add_aov(inout Pixel pixel, int aov, Ray ray, Hit hit, int index) {
     if (aov == NO_AOV || aov == OBJECT) return;
     add_sample(pixel, loop_was_cut ? nothing_met() : aov_of(aov, ray, hit), index);
 }
 
 // `place`: pixel in the full frame. The object is found when the film is empty and kept from then on.
-void add_aovs(precise inout Pixel first, precise inout Pixel second, ivec2 place) {
+void add_aovs(inout Pixel first, inout Pixel second, ivec2 place) {
     if (frame.is_empty != 0 && FIRST_AOV == OBJECT) first = object_of(place);
     if (frame.is_empty != 0 && SECOND_AOV == OBJECT) second = object_of(place);
     if (FIRST_AOV == OBJECT && SECOND_AOV == NO_AOV) return;
     int end = frame.first_sample + frame.sample_count;
     for (int index = frame.first_sample; index < end; index += 1) {
-        precise Sampler rng = sampler_at(place, index, frame.seed);
-        precise Ray ray = camera_ray(frame.camera, vec2(frame.size), vec2(place), rng);
+        Sampler rng = sampler_at(place, index, frame.seed);
+        Ray ray = camera_ray(frame.camera, vec2(frame.size), vec2(place), rng);
         leave_vertex(rng.seed, 0);
-        precise Hit hit = HAS_HOLE ? solid_hit(ray, FAR, NO_SHAPE) : closest_hit(ray);
+        Hit hit = HAS_HOLE ? solid_hit(ray, FAR, NO_SHAPE) : closest_hit(ray);
         add_aov(first, FIRST_AOV, ray, hit, index);
         add_aov(second, SECOND_AOV, ray, hit, index);
     }

@@ -15,34 +15,34 @@ bool is_glossy(Material material) { return HAS_GLOSSY && material.kind != MATTE 
 // Whether particles scatter at a material. They do not where a smooth coat or smooth facets are part of the surface.
 bool carries_particles(Material material) {
     if (!(HAS_PRINCIPLED && material.kind == PRINCIPLED)) return true;
-    precise Gloss gloss = gloss_at(material.details);
+    Gloss gloss = gloss_at(material.details);
     bool is_smooth_coat = HAS_COAT && gloss.coat > 0.0 && gloss.coat_alpha == 0.0;
     return material.alpha > 0.0 && !is_smooth_coat;
 }
 
 // Normals on the side of w, from normals on either side.
 Normals normals_towards(Normals at, vec3 w) {
-    precise float side = dot(w, at.facing) < 0.0 ? -1.0 : 1.0;
+    float side = dot(w, at.facing) < 0.0 ? -1.0 : 1.0;
     return Normals(side * at.facing, side * at.shading);
 }
 
 // The same vertex for a path that comes from w; `at`: normals on the side of the vertex's wo.
 Vertex vertex_from(Vertex vertex, Normals at, vec3 w) {
     bool crosses = dot(w, at.facing) < 0.0;
-    precise Normals there = normals_towards(at, w);
-    precise mat3 frame = shading_frame(there.facing, HAS_SHADING ? there.shading : there.facing, -w);
-    precise float eta = crosses ? 1.0 / vertex.eta : vertex.eta;
+    Normals there = normals_towards(at, w);
+    mat3 frame = shading_frame(there.facing, HAS_SHADING ? there.shading : there.facing, -w);
+    float eta = crosses ? 1.0 / vertex.eta : vertex.eta;
     return Vertex(frame, to_local(frame, w), vertex.material, vertex.is_outside != crosses, eta);
 }
 
 // V and p of a direction wi of the world; 0 where no path goes there. `facing`: the true normal on the side of wo.
 ColorLobe lobe_towards(Vertex vertex, vec3 facing, vec3 wi) {
-    precise vec3 local = to_local(vertex.frame, wi);
+    vec3 local = to_local(vertex.frame, wi);
     bool crosses = local.z < 0.0;
     bool is_lost = crosses ? !is_rough_glass(vertex.material) : local.z == 0.0;
     if (is_lost || HAS_SHADING && crosses != dot(wi, facing) < 0.0) return ColorLobe(vec3(0.0), 0.0);
-    precise vec3 value = eval_material(vertex, local);
-    precise float pdf = pdf_material(vertex, local);
+    vec3 value = eval_material(vertex, local);
+    float pdf = pdf_material(vertex, local);
     return ColorLobe(value, pdf);
 }
 
@@ -56,26 +56,26 @@ struct Turn {
 // vertex_from. The vertex's frame is around the true normal.
 Turn turn_of_link(Vertex vertex, Normals at, vec3 wi, vec3 wo) {
     if (!is_glossy(vertex.material)) {
-        precise float turn = turn_towards(at, wi, wo, false);
-        precise vec3 share = turn * (vertex.material.color / PI);
+        float turn = turn_towards(at, wi, wo, false);
+        vec3 share = turn * (vertex.material.color / PI);
         return Turn(share, turn);
     }
-    precise ColorLobe lobe = lobe_towards(vertex_from(vertex, at, wo), normals_towards(at, wo).facing, wi);
-    precise float arriving = abs(dot(wi, at.facing));
-    precise vec3 value = lobe.value / arriving;
-    precise float density = PI * lobe.pdf / arriving;
+    ColorLobe lobe = lobe_towards(vertex_from(vertex, at, wo), normals_towards(at, wo).facing, wi);
+    float arriving = abs(dot(wi, at.facing));
+    vec3 value = lobe.value / arriving;
+    float density = PI * lobe.pdf / arriving;
     return Turn(value, density);
 }
 
 // P0 over PL of a path from the camera that goes to wi; 0 where no particle takes this way. `is_linked`: whether
 // particles are linked to the camera here.
 float glossy_turn(Vertex vertex, Normals at, vec3 wi, bool is_linked) {
-    precise vec3 wo = normalized(vertex.frame * vertex.wo);
-    precise float density = lobe_towards(vertex, at.facing, wi).pdf;
-    precise float arriving = abs(dot(wi, at.facing));
-    precise float turn = PI * density / arriving;
+    vec3 wo = normalized(vertex.frame * vertex.wo);
+    float density = lobe_towards(vertex, at.facing, wi).pdf;
+    float arriving = abs(dot(wi, at.facing));
+    float turn = PI * density / arriving;
     if (!is_linked) {
-        precise float back = lobe_towards(vertex_from(vertex, at, wi), normals_towards(at, wi).facing, wo).pdf;
+        float back = lobe_towards(vertex_from(vertex, at, wi), normals_towards(at, wi).facing, wo).pdf;
         turn = density * abs(dot(wo, at.facing)) / (arriving * back);
     }
     return turn > 0.0 && turn < FAR ? turn : 0.0;

@@ -42,22 +42,22 @@ const float MOST_DEPTH = 87.0;  // exp(-depth) beyond it is no normal float
 // of 9 bits.
 float decay(float depth) {
     if (depth > MOST_DEPTH) return 0.0;
-    precise float n = floor(depth * 1.44269504 + 0.5);
-    precise float rest = n * 0.693359375 - depth;
+    float n = floor(depth * 1.44269504 + 0.5);
+    float rest = n * 0.693359375 - depth;
     rest -= n * 2.12194440e-4;
-    precise float p = 1.0 / 720.0 + rest / 5040.0;
+    float p = 1.0 / 720.0 + rest / 5040.0;
     p = p * rest + 1.0 / 120.0;
     p = p * rest + 1.0 / 24.0;
     p = p * rest + 1.0 / 6.0;
     p = p * rest + 0.5;
-    precise float sum = 1.0 + rest + rest * rest * p;
-    precise float left = sum * uintBitsToFloat(uint(127 - int(n)) << 23);
+    float sum = 1.0 + rest + rest * rest * p;
+    float left = sum * uintBitsToFloat(uint(127 - int(n)) << 23);
     return left;
 }
 
 // The share of light that is left after a distance.
 vec3 share_left(vec3 absorption, float distance) {
-    precise vec3 depth = absorption * distance;
+    vec3 depth = absorption * distance;
     return vec3(decay(depth.x), decay(depth.y), decay(depth.z));
 }
 

@@ -9,9 +9,9 @@ struct Meeting {
 };
 
 // The material of this sample: a principled surface with transmission acts as glass in part of the samples.
-Material part_met(Material material, precise inout Sampler rng) {
+Material part_met(Material material, inout Sampler rng) {
     if (!HAS_TRANSMISSION || material.kind != PRINCIPLED) return material;
-    precise Material part = met_part(material, next_1d(rng));
+    Material part = met_part(material, next_1d(rng));
     return part;
 }
 
@@ -28,26 +28,26 @@ vec3 absorption_behind(Path path, Material material, bool enters) {
 
 // `by_shading`: the path scatters around the normal for shading where that is possible; else around the true one.
 Meeting meet(Path path, Surface surface, Material material, bool by_shading) {
-    precise vec3 direction = path.ray.direction;
-    precise vec3 facing = true_normal(surface);
-    precise float side = dot(direction, facing) < 0.0 ? 1.0 : -1.0;  // 1: the path meets the outer side
+    vec3 direction = path.ray.direction;
+    vec3 facing = true_normal(surface);
+    float side = dot(direction, facing) < 0.0 ? 1.0 : -1.0;  // 1: the path meets the outer side
     facing *= side;
-    precise vec3 shading = side * (HAS_NORMAL_MAP ? bent_normal(path.ray, surface) : surface.normal);
-    precise mat3 frame = by_shading ? shading_frame(facing, shading, direction) : frame_around(facing);
-    precise Vertex vertex = vertex_of(frame, to_local(frame, -direction), material, side > 0.0);
+    vec3 shading = side * (HAS_NORMAL_MAP ? bent_normal(path.ray, surface) : surface.normal);
+    mat3 frame = by_shading ? shading_frame(facing, shading, direction) : frame_around(facing);
+    Vertex vertex = vertex_of(frame, to_local(frame, -direction), material, side > 0.0);
     uint beyond = path.counts;
     if (is_medium(material)) {
         beyond = counts_beyond(path.counts, material.details, side > 0.0);
         vertex.eta = ior_of_medium(path.counts) / ior_of_medium(beyond);
     }
-    precise vec3 behind = absorption_behind(path, material, side > 0.0);
-    precise Ray ray = Ray(surface.position, direction, surface.shape, side < 0.0);
+    vec3 behind = absorption_behind(path, material, side > 0.0);
+    Ray ray = Ray(surface.position, direction, surface.shape, side < 0.0);
     return Meeting(vertex, Normals(facing, shading), ray, behind, beyond);
 }
 
 // Sends the path on from the surface in the scattered direction.
-void leave(precise inout Path path, Meeting at, Scattering next) {
-    precise Ray ray = at.ray;
+void leave(inout Path path, Meeting at, Scattering next) {
+    Ray ray = at.ray;
     ray.direction = next.direction;
     ray.inward = ray.inward != next.crosses;
     path.ray = ray;
@@ -57,7 +57,7 @@ void leave(precise inout Path path, Meeting at, Scattering next) {
 }
 
 // Takes the light away that a segment of length `distance` loses. A segment that meets glass from inside lay in it.
-void absorb(precise inout Path path, Material material, bool is_inside, float distance) {
+void absorb(inout Path path, Material material, bool is_inside, float distance) {
     if (!HAS_ATTENUATION) return;
     bool is_glass = material.kind == DIELECTRIC && !is_medium(material);
     if (is_glass && is_inside) path.absorption = absorption_of_glass(material.details);
@@ -72,7 +72,7 @@ bool is_within_other_glass(Path path, Material material, bool enters) {
 }
 
 // The path goes on through such a surface. No sampled light has passed it, so pdf is 0.
-void pass_glass(precise inout Path path, Surface surface, Material material, bool enters) {
+void pass_glass(inout Path path, Surface surface, Material material, bool enters) {
     record_passing(EVENT_PASSED_GLASS);
     path.counts = counts_beyond(path.counts, material.details, enters);
     path.ray = Ray(surface.position, path.ray.direction, surface.shape, enters);

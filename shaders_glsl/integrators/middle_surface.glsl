@@ -11,8 +11,8 @@ struct MiddleSurface {
 
 // Radius of the circle of confusion, in pixels, of a point at a depth along the view axis; 0 for a pinhole.
 float circle_of_confusion(Camera camera, float depth, vec2 size) {
-    precise float slope = camera.lens_radius / depth - camera.tan_lens;
-    precise float radius = abs(slope) * size.y / (2.0 * camera.tan_y);
+    float slope = camera.lens_radius / depth - camera.tan_lens;
+    float radius = abs(slope) * size.y / (2.0 * camera.tan_y);
     return radius;
 }
 
@@ -31,15 +31,15 @@ int surface_flags(Material material, float depth) {
 
 // `place`: pixel in the full frame.
 MiddleSurface middle_surface(ivec2 place) {
-    precise Ray ray = middle_ray(place);
+    Ray ray = middle_ray(place);
     leave_vertex(0u, 0);  // one random number for all pixels: a partly transparent object is seen whole, or not at all
-    precise Hit hit = HAS_HOLE ? solid_hit(ray, FAR, NO_SHAPE) : closest_hit(ray);
+    Hit hit = HAS_HOLE ? solid_hit(ray, FAR, NO_SHAPE) : closest_hit(ray);
     if (loop_was_cut) return MiddleSurface(vec4(ray.direction, -1.0), vec4(-ray.direction, 0.0));
     if (hit.shape == NO_SHAPE) return MiddleSurface(vec4(ray.direction, 0.0), vec4(-ray.direction, 0.0));
-    precise Surface surface = surface_at(ray, hit);
-    precise float depth = dot(surface.position, frame.camera.forward);
+    Surface surface = surface_at(ray, hit);
+    float depth = dot(surface.position, frame.camera.forward);
     int flags = surface_flags(material_of(ray, surface), depth);
-    precise vec3 normal = dot(surface.normal, ray.direction) > 0.0 ? -surface.normal : surface.normal;
-    precise float object = float(1 + object_number(hit.shape));
+    vec3 normal = dot(surface.normal, ray.direction) > 0.0 ? -surface.normal : surface.normal;
+    float object = float(1 + object_number(hit.shape));
     return MiddleSurface(vec4(surface.position, object), vec4(normal, float(flags)));
 }

@@ -25,26 +25,26 @@ Leaving leave_flat(vec3 position, vec3 normal, int material, bool back) {
 
 Leaving place_on(Light light, vec2 u, bool back) {
     if (is_sphere_lamp(light.shape)) {
-        precise Sphere sphere = sphere_at(light.shape);
-        precise vec3 normal = sample_cone(2.0, u);
-        precise vec3 position = sphere.center + sphere.radius * normal;
+        Sphere sphere = sphere_at(light.shape);
+        vec3 normal = sample_cone(2.0, u);
+        vec3 position = sphere.center + sphere.radius * normal;
         return Leaving(position, normal, sphere.material, true);
     }
     if (is_triangle_lamp(light.shape)) {
-        precise LampTriangle triangle = lamp_triangle(light.shape);
-        precise vec2 shares = sample_triangle(u);
-        precise vec3 place = triangle.a + shares.x * triangle.edge_b + shares.y * triangle.edge_c;
+        LampTriangle triangle = lamp_triangle(light.shape);
+        vec2 shares = sample_triangle(u);
+        vec3 place = triangle.a + shares.x * triangle.edge_b + shares.y * triangle.edge_c;
         return leave_flat(place, normalized(triangle.across), mesh_at(triangle.mesh).material, back);
     }
     if (is_disk_lamp(light.shape)) {
-        precise Disk disk = disk_lamp(light.shape);
-        precise vec2 across = disk.radius * sample_disk(u);
-        precise vec3 place = disk.center + frame_around(disk.normal) * vec3(across, 0.0);
+        Disk disk = disk_lamp(light.shape);
+        vec2 across = disk.radius * sample_disk(u);
+        vec3 place = disk.center + frame_around(disk.normal) * vec3(across, 0.0);
         return leave_flat(place, disk.normal, disk.material, back);
     }
     if (is_quad_lamp(light.shape)) {
-        precise Quad quad = quad_lamp(light.shape);
-        precise vec3 position = quad.corner + u.x * quad.edge_u + u.y * quad.edge_v;
+        Quad quad = quad_lamp(light.shape);
+        vec3 position = quad.corner + u.x * quad.edge_u + u.y * quad.edge_v;
         return leave_flat(position, quad.normal, quad.material, back);
     }
     return Leaving(vec3(0.0), vec3(0.0), 0, true);
@@ -52,15 +52,15 @@ Leaving place_on(Light light, vec2 u, bool back) {
 
 // A direction towards a ball, drawn evenly over the cone that the ball fills; 0 from inside the ball.
 vec3 direction_to(Target ball, vec3 position, vec2 u) {
-    precise vec3 away = ball.center - position;
-    precise float drop = cone_of_sphere(away, ball.radius);
+    vec3 away = ball.center - position;
+    float drop = cone_of_sphere(away, ball.radius);
     if (drop == 0.0) return vec3(0.0);
-    precise vec3 direction = normalized(frame_around(normalized(away)) * sample_cone(drop, u));
+    vec3 direction = normalized(frame_around(normalized(away)) * sample_cone(drop, u));
     return direction;
 }
 
 Path particle_path(Ray ray) {
-    precise Path path = start_path(ray);
+    Path path = start_path(ray);
     path.absorption = vec3(0.0);
     path.counts = 0u;
     return path;
@@ -68,14 +68,14 @@ Path particle_path(Ray ray) {
 
 // The point where light on the line through p begins: before it meets the ball around the scene, or a plane.
 vec3 before_the_scene(vec3 p, vec3 direction) {
-    precise float along = dot(p - frame.bounds_center, direction);
-    precise vec3 start = p - (along + 2.0 * frame.bounds_radius) * direction;
+    float along = dot(p - frame.bounds_center, direction);
+    vec3 start = p - (along + 2.0 * frame.bounds_radius) * direction;
     if (!HAS_PLANE) return start;
-    precise float farthest = 0.0;
+    float farthest = 0.0;
     int i = 0;
     for (; i < plane_count(); ++i) {
-        precise Plane plane = plane_at(i);
-        precise float t = plane_distance(Ray(start, -direction, NO_SHAPE, false), plane.point, plane.normal);
+        Plane plane = plane_at(i);
+        float t = plane_distance(Ray(start, -direction, NO_SHAPE, false), plane.point, plane.normal);
         if (t > farthest && t < FAR) farthest = t;
     }
     note_end(i, plane_count());
@@ -85,39 +85,39 @@ vec3 before_the_scene(vec3 p, vec3 direction) {
 
 // `aim`: the number of the target, or NOT_AIMED.
 Particle start_from_sun(int aim, vec2 u, vec2 v) {
-    precise vec3 towards = normalized(frame_around(frame.sun_direction) * sample_cone(frame.sun_versine, u));
-    precise Target ball = Target(frame.bounds_center, frame.bounds_radius);
+    vec3 towards = normalized(frame_around(frame.sun_direction) * sample_cone(frame.sun_versine, u));
+    Target ball = Target(frame.bounds_center, frame.bounds_radius);
     if (aim != NOT_AIMED) ball = aimed_at(aim);
-    precise vec3 across = frame_around(towards) * vec3(ball.radius * sample_disk(v), 0.0);
-    precise Ray ray = Ray(before_the_scene(ball.center + across, -towards), -towards, NO_SHAPE, false);
-    precise float emission = pdf_from_sun(ray.origin, -towards, aim);
-    precise vec3 power = vec3(0.0);
+    vec3 across = frame_around(towards) * vec3(ball.radius * sample_disk(v), 0.0);
+    Ray ray = Ray(before_the_scene(ball.center + across, -towards), -towards, NO_SHAPE, false);
+    float emission = pdf_from_sun(ray.origin, -towards, aim);
+    vec3 power = vec3(0.0);
     if (emission > 0.0) power = frame.sun_radiance * (PI / emission);
     return Particle(particle_path(ray), power, emission, 0.0, 1.0, SUN_LIGHT, SUN_LAYER);
 }
 
 // `aim`: see start_from_sun.
-Particle start_from_sky(int aim, vec2 v, precise inout Sampler rng) {
-    precise vec3 towards = vec3(0.0);
+Particle start_from_sky(int aim, vec2 v, inout Sampler rng) {
+    vec3 towards = vec3(0.0);
     if (HAS_ENVIRONMENT) towards = sample_sky(Ray(vec3(0.0), vec3(0.0), NO_SHAPE, false), rng).ray.direction;
     else towards = sample_cone(2.0, next_2d(rng));
-    precise Target ball = Target(frame.bounds_center, frame.bounds_radius);
+    Target ball = Target(frame.bounds_center, frame.bounds_radius);
     if (aim != NOT_AIMED) ball = aimed_at(aim);
-    precise vec3 across = frame_around(towards) * vec3(ball.radius * sample_disk(v), 0.0);
-    precise Ray ray = Ray(before_the_scene(ball.center + across, -towards), -towards, NO_SHAPE, false);
-    precise float emission = pdf_from_sky(ray.origin, -towards, aim);
-    precise vec3 power = vec3(0.0);
+    vec3 across = frame_around(towards) * vec3(ball.radius * sample_disk(v), 0.0);
+    Ray ray = Ray(before_the_scene(ball.center + across, -towards), -towards, NO_SHAPE, false);
+    float emission = pdf_from_sky(ray.origin, -towards, aim);
+    vec3 power = vec3(0.0);
     if (emission > 0.0) power = background(towards) * (PI / emission);
     return Particle(particle_path(ray), power, emission, 0.0, 1.0, SKY_LIGHT, BACKGROUND_LAYER);
 }
 
-Particle start_particle(precise inout Sampler rng) {
-    precise vec2 choice = next_2d(rng);
-    precise vec2 u = next_2d(rng);
-    precise vec2 v = next_2d(rng);
+Particle start_particle(inout Sampler rng) {
+    vec2 choice = next_2d(rng);
+    vec2 u = next_2d(rng);
+    vec2 v = next_2d(rng);
     int aim = NOT_AIMED;
     if (is_aimed()) {
-        precise vec2 pick = next_2d(rng);
+        vec2 pick = next_2d(rng);
         if (pick.x < frame.aimed) aim = choose_aim(pick.y);
     }
     if (SKY_SENDS) return start_from_sky(aim, v, rng);
@@ -126,19 +126,19 @@ Particle start_particle(precise inout Sampler rng) {
         choice.x = (choice.x - frame.from_sun) / (1.0 - frame.from_sun);
     }
     int index = choose_emitter(choice.x);
-    precise Light light = light_at(index);
-    precise float front = sides_at(index).front;
-    precise Leaving leaving = place_on(light, u, choice.y >= front);
-    precise vec3 direction = normalized(frame_around(leaving.normal) * sample_cosine_hemisphere(v));
+    Light light = light_at(index);
+    float front = sides_at(index).front;
+    Leaving leaving = place_on(light, u, choice.y >= front);
+    vec3 direction = normalized(frame_around(leaving.normal) * sample_cosine_hemisphere(v));
     bool is_front = leaving.is_front;
     if (aim != NOT_AIMED) {
         direction = direction_to(aimed_at(aim), leaving.position, v);
         if (!is_sphere_lamp(light.shape)) is_front = dot(direction, leaving.normal) > 0.0 == leaving.is_front;
     }
-    precise float emission = pdf_emission(index, leaving.position, direction, aim);
-    precise Material material = material_at(leaving.material);
-    precise vec3 power = vec3(0.0);
+    float emission = pdf_emission(index, leaving.position, direction, aim);
+    Material material = material_at(leaving.material);
+    vec3 power = vec3(0.0);
     if (emission > 0.0 && direction != vec3(0.0)) power = emitted(material, direction, is_front) * (PI / emission);
-    precise Path path = particle_path(Ray(leaving.position, direction, light.shape, false));
+    Path path = particle_path(Ray(leaving.position, direction, light.shape, false));
     return Particle(path, power, emission, 0.0, 1.0, index, material.layer);
 }

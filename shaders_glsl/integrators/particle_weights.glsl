@@ -14,42 +14,42 @@
 
 // Density of camera rays per solid angle, over the whole frame, at their point of the lens.
 float pdf_camera(vec3 direction) {
-    precise float cosine = dot(direction, frame.camera.forward);
+    float cosine = dot(direction, frame.camera.forward);
     if (cosine <= 0.0) return 0.0;
-    precise float pdf = 1.0 / (4.0 * frame.camera.tan_x * frame.camera.tan_y * cosine * cosine * cosine);
+    float pdf = 1.0 / (4.0 * frame.camera.tan_x * frame.camera.tan_y * cosine * cosine * cosine);
     return pdf;
 }
 
 // The same density per area of a surface that the ray meets; `cosine`: between the ray and the surface's normal.
 float pdf_film(vec3 direction, float cosine, float distance) {
-    precise float pdf = pdf_camera(direction) * cosine / (distance * distance);
+    float pdf = pdf_camera(direction) * cosine / (distance * distance);
     return pdf;
 }
 
 // Weight of a sampled point: P1^2 over the sum of squares. `scattered`: the density of scattering to it.
 float sample_beside_particles(LightSample light, float scattered, float rho) {
-    precise vec3 point = light.ray.origin;
+    vec3 point = light.ray.origin;
     if (!SKY_SENDS && light.light != SUN_LIGHT) point += light.distance * light.ray.direction;
-    precise float ratio = scattered / light.pdf;
-    precise float over = 0.0;
+    float ratio = scattered / light.pdf;
+    float over = 0.0;
     if (SKY_SENDS || light.light != NO_LIGHT) {
         over = ratio * pdf_emission(light.light, point, -light.ray.direction, NOT_AIMED) / rho;
     }
-    precise float weight = 1.0 / (1.0 + ratio * ratio + over * over);
+    float weight = 1.0 / (1.0 + ratio * ratio + over * over);
     return weight;
 }
 
 // Weight of emission that scattering met: P0^2 over the sum of squares. `kappa`: P1 / P0.
 float emission_beside_particles(Ray ray, Hit hit, int light, float kappa, float rho) {
-    precise vec3 point = ray.origin + hit.distance * ray.direction;
-    precise float over = pdf_emission(light, point, -ray.direction, NOT_AIMED) / rho;
-    precise float weight = 1.0 / (1.0 + kappa * kappa + over * over);
+    vec3 point = ray.origin + hit.distance * ray.direction;
+    float over = pdf_emission(light, point, -ray.direction, NOT_AIMED) / rho;
+    float weight = 1.0 / (1.0 + kappa * kappa + over * over);
     return weight;
 }
 
 // Weight of a particle linked to the camera: PL^2 over the sum of squares. `over`: P0 / PL.
 float particle_weight(float over, float kappa) {
-    precise float both = over * kappa;  // P1 / PL: the square of kappa alone may overflow
-    precise float weight = 1.0 / (1.0 + over * over + both * both);
+    float both = over * kappa;  // P1 / PL: the square of kappa alone may overflow
+    float weight = 1.0 / (1.0 + over * over + both * both);
     return weight;
 }

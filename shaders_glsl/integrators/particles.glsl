@@ -4,14 +4,14 @@ const float KEEP = 2.0;  // `keep` of ends_at_random: a link costs the same, how
 
 // P1 / P0 of a particle at the first surface that it meets, as if that were matte; `distance`: from its lamp.
 float kappa_of(int light, Meeting at, float distance) {
-    precise Ray ray = at.ray;
+    Ray ray = at.ray;
     ray.direction = -ray.direction;
-    precise float sampled = 0.0;
+    float sampled = 0.0;
     if (SKY_SENDS) {
         if (SAMPLE_SKY) sampled = pdf_sky(ray.direction);
     } else if (HAS_SUN && light == SUN_LIGHT) sampled = pdf_sun();
     else sampled = pdf_light(light, ray, distance, total_weight(ray));
-    precise float kappa = sampled * PI / at.vertex.wo.z;
+    float kappa = sampled * PI / at.vertex.wo.z;
     return kappa;
 }
 
@@ -26,20 +26,20 @@ bool goes_back(Scattering next, Normals normals, bool is_flat) {
 // Glossy surfaces scatter particles as they scatter camera paths. Smooth glass and metal send a particle to the
 // one or two directions from which paths from the camera scatter to where the particle comes from. Some of these paths
 // scatter around the true normal, which `met` has, and some around the normal for shading.
-Scattering scatter_particle(Vertex met, Normals normals, precise inout Sampler rng) {
-    precise Vertex vertex = met;  // a copy: glslang 12 never ends on a struct that is made of its own fields
+Scattering scatter_particle(Vertex met, Normals normals, inout Sampler rng) {
+    Vertex vertex = met;  // a copy: glslang 12 never ends on a struct that is made of its own fields
     if (is_glossy(met.material)) vertex = vertex_from(met, normals, met.frame * met.wo);
-    precise Scattering flat_one = sample_material(vertex, rng);
+    Scattering flat_one = sample_material(vertex, rng);
     if (!HAS_SHADING || !is_delta(vertex.material) || normals.shading == normals.facing) return flat_one;
     if (!goes_back(flat_one, normals, true)) flat_one.weight = vec3(0.0);
-    precise vec3 wi = normalized(vertex.frame * vertex.wo);
+    vec3 wi = normalized(vertex.frame * vertex.wo);
     if (dot(wi, normals.shading) <= 0.0) return flat_one;
     vertex.frame = frame_around(normals.shading);
     vertex.wo = to_local(vertex.frame, wi);
-    precise Scattering bent_one = sample_material(vertex, rng);
+    Scattering bent_one = sample_material(vertex, rng);
     if (!goes_back(bent_one, normals, false)) return flat_one;
     if (flat_one.weight == vec3(0.0)) return bent_one;
-    precise float choice = next_1d(rng);
+    float choice = next_1d(rng);
     flat_one.weight *= 2.0;
     bent_one.weight *= 2.0;
     if (choice < 0.5) return flat_one;
@@ -47,16 +47,16 @@ Scattering scatter_particle(Vertex met, Normals normals, precise inout Sampler r
 }
 
 // Applies a scattering event to the flux and to the weight of a particle.
-void turn_particle(precise inout Particle self, Vertex vertex, Normals normals, Scattering next) {
-    precise vec3 wi = -self.path.ray.direction;
-    precise vec3 share = next.weight;
-    precise float turn = 1.0;
-    precise float unlike_matte = 1.0;  // P0 over that of a matte surface, which kappa_of assumes
+void turn_particle(inout Particle self, Vertex vertex, Normals normals, Scattering next) {
+    vec3 wi = -self.path.ray.direction;
+    vec3 share = next.weight;
+    float turn = 1.0;
+    float unlike_matte = 1.0;  // P0 over that of a matte surface, which kappa_of assumes
     if (is_glossy(vertex.material)) {
-        precise Turn linked = turn_of_link(vertex, normals, wi, next.direction);
-        precise float leaving = dot(next.direction, normals.facing);
+        Turn linked = turn_of_link(vertex, normals, wi, next.direction);
+        float leaving = dot(next.direction, normals.facing);
         bool is_lost = next.pdf == 0.0 || HAS_SHADING && leaving < 0.0 != next.crosses;
-        precise float spread = is_lost ? 0.0 : abs(leaving) / next.pdf;
+        float spread = is_lost ? 0.0 : abs(leaving) / next.pdf;
         turn = linked.turn * spread / PI;
         share = turn > 0.0 && turn < FAR ? linked.value * spread : vec3(0.0);
         unlike_matte = linked.turn;
@@ -79,15 +79,15 @@ bool is_from_seen(Particle self, Ray back) {
 }
 
 // Follows one segment; false when the particle ends with it. `by_spheres`: see link_to_camera.
-bool extend_particle(precise inout Particle self, bool by_spheres, precise inout Sampler rng) {
-    precise vec3 direction = self.path.ray.direction;
-    precise Hit hit = closest_hit(self.path.ray);
+bool extend_particle(inout Particle self, bool by_spheres, inout Sampler rng) {
+    vec3 direction = self.path.ray.direction;
+    Hit hit = closest_hit(self.path.ray);
     if (hit.shape == NO_SHAPE || self.path.depth == frame.bounces) return false;
-    precise Surface surface = surface_at(self.path.ray, hit);
-    precise Material whole = material_of(self.path.ray, surface);
+    Surface surface = surface_at(self.path.ray, hit);
+    Material whole = material_of(self.path.ray, surface);
     bool enters = dot(direction, true_normal(surface)) < 0.0;
     if (HAS_COINCIDENT && self.path.depth == 0) {
-        precise Ray back = Ray(surface.position, -direction, surface.shape, !enters);
+        Ray back = Ray(surface.position, -direction, surface.shape, !enters);
         if (!is_from_seen(self, back)) return false;
     }
     absorb(self.path, whole, !enters, hit.distance);
@@ -97,14 +97,14 @@ bool extend_particle(precise inout Particle self, bool by_spheres, precise inout
         pass_glass(self.path, surface, whole, enters);
         return true;
     }
-    precise Material material = part_met(whole, rng);
+    Material material = part_met(whole, rng);
     if (!carries_particles(material)) return false;
-    precise Meeting at = meet(self.path, surface, material, false);
+    Meeting at = meet(self.path, surface, material, false);
     if (!is_delta(material)) {
         if (self.path.depth == 0) self.kappa = kappa_of(self.light, at, hit.distance);
         link_to_camera(self, at, by_spheres, rng);
     }
-    precise Scattering next = scatter_particle(at.vertex, at.normals, rng);
+    Scattering next = scatter_particle(at.vertex, at.normals, rng);
     record_scattering(at.vertex.frame[2], next.direction, next.pdf, next.crosses);
     turn_particle(self, at.vertex, at.normals, next);
     if (self.path.throughput == vec3(0.0)) return false;
@@ -118,8 +118,8 @@ bool extend_particle(precise inout Particle self, bool by_spheres, precise inout
 int add_particles(int lane, bool by_spheres) {
     int index = frame.first_sample;
     int end = index + frame.sample_count;
-    precise Sampler rng = sampler_at(ivec2(lane, -1), index, frame.seed);
-    precise Particle particle = start_particle(rng);
+    Sampler rng = sampler_at(ivec2(lane, -1), index, frame.seed);
+    Particle particle = start_particle(rng);
     while (index < end) {
         if (particle.power != vec3(0.0) && extend_particle(particle, by_spheres, rng)) continue;
         if (loop_was_cut) break;

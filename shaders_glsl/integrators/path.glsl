@@ -16,8 +16,8 @@ float weight_of_sample(LightSample light, float scattered, float rho) {
 float emission_weight(Ray ray, Hit hit, int light, float pdf, float lamps) {
     if (!SAMPLE_LIGHTS || light == NO_LIGHT || pdf == 0.0) return 1.0;
     if (!is_sampled(light, ray)) return 1.0;
-    precise float light_pdf = pdf_light(light, ray, hit.distance, lamps);
-    precise float weight = WEIGHT_BOTH ? power_heuristic(pdf, light_pdf) : 0.0;
+    float light_pdf = pdf_light(light, ray, hit.distance, lamps);
+    float weight = WEIGHT_BOTH ? power_heuristic(pdf, light_pdf) : 0.0;
     record_weight(light_pdf, weight);
     return weight;
 }
@@ -25,14 +25,14 @@ float emission_weight(Ray ray, Hit hit, int light, float pdf, float lamps) {
 // Direct light from one sampled point, scattered towards wo; `rho`: see Rivals.
 vec3 direct_light(Vertex vertex, LightSample light, float rho) {
     if (light.pdf == 0.0 || is_dark(light)) return vec3(0.0);
-    precise vec3 wi = to_local(vertex.frame, light.ray.direction);
+    vec3 wi = to_local(vertex.frame, light.ray.direction);
     bool crosses = is_rough_glass(vertex.material) && wi.z < 0.0;
     if (wi.z <= 0.0 && !crosses) return vec3(0.0);
     if (crosses) light.ray.inward = !light.ray.inward;
-    precise vec3 weight = eval_material(vertex, wi) / light.pdf;
+    vec3 weight = eval_material(vertex, wi) / light.pdf;
     if (WEIGHT_BOTH) {
-        precise float scattered = pdf_material(vertex, wi);
-        precise float share = weight_of_sample(light, scattered, rho);
+        float scattered = pdf_material(vertex, wi);
+        float share = weight_of_sample(light, scattered, rho);
         record_weight(scattered, share);
         weight *= share;
     }
@@ -40,41 +40,41 @@ vec3 direct_light(Vertex vertex, LightSample light, float rho) {
         record_shadow();
         return vec3(0.0);
     }
-    precise vec3 radiance = weight * light.radiance;
+    vec3 radiance = weight * light.radiance;
     return radiance;
 }
 
 // Roulette of paths from the camera. To end paths below a throughput of 1/4 saves more time than it adds variance
 // (docs/results/speed.md).
-bool roulette_ends(precise inout vec3 throughput, precise inout Sampler rng) {
+bool roulette_ends(inout vec3 throughput, inout Sampler rng) {
     return ends_at_random(throughput, 4.0, rng);
 }
 
 // The end of a path in the classic models: adds the light of the lamps and of a sky that nothing hides.
-void shade(precise inout Path path, Vertex vertex, Ray from, precise inout Sampler rng) {
-    precise vec3 weight = path.scale * path.throughput;
+void shade(inout Path path, Vertex vertex, Ray from, inout Sampler rng) {
+    vec3 weight = path.scale * path.throughput;
     if (HAS_BACKGROUND) {
-        precise vec3 sky = unhidden_sky(vertex.frame[2]);
+        vec3 sky = unhidden_sky(vertex.frame[2]);
         gather(path, weight * head_on_reflectance(vertex.material) * sky, BACKGROUND_LAYER, path.depth + 1);
     }
     if (LAMP_KINDS == 0) return;
     if (MODEL == COOK) {
-        precise LightSample light = sample_light(from, total_weight(from), rng);
-        precise vec3 direct = weight * direct_light(vertex, light, 0.0);
+        LightSample light = sample_light(from, total_weight(from), rng);
+        vec3 direct = weight * direct_light(vertex, light, 0.0);
         gather(path, direct, light.layer, path.depth + 1);
         return;
     }
     int i = 0;
     for (; i < light_count(); ++i) {
         int shape = light_at(i).shape;
-        precise vec3 direct = weight * point_light(vertex, from, shape);
+        vec3 direct = weight * point_light(vertex, from, shape);
         gather(path, direct, material_at(point_lamp(shape).material).layer, path.depth + 1);
     }
     note_end(i, light_count());
 }
 
 // The segment goes on through a hole of a surface.
-void pass_hole(precise inout Path path, Surface surface, float distance) {
+void pass_hole(inout Path path, Surface surface, float distance) {
     record_passing(EVENT_PASSED_HOLE);
     path.passed.holes += 1u;
     path.passed.way += distance;
@@ -84,25 +84,25 @@ void pass_hole(precise inout Path path, Surface surface, float distance) {
 // `emission_weight` of the emission that a segment meets. The segment may have passed holes.
 float weight_of_emission(Path path, Hit hit, int light) {
     if (HAS_PARTICLES && path.rivals.rho > 0.0 && light != NO_LIGHT) {
-        precise float kappa = 0.0;
+        float kappa = 0.0;
         if (path.pdf > 0.0) kappa = pdf_light(light, path.ray, hit.distance, path.lamps) / path.pdf;
-        precise float weight = emission_beside_particles(path.ray, hit, light, kappa, path.rivals.rho);
+        float weight = emission_beside_particles(path.ray, hit, light, kappa, path.rivals.rho);
         record_weight(kappa * path.pdf, weight);
         return weight;
     }
     if (!HAS_HOLE) return emission_weight(path.ray, hit, light, path.pdf, path.lamps);
-    precise Hit met = Hit(path.passed.way + hit.distance, hit.shape);
+    Hit met = Hit(path.passed.way + hit.distance, hit.shape);
     return emission_weight(path.passed.start, met, light, path.pdf, path.lamps);
 }
 
 // Adds light of a sample, scattered where the path meets a surface. `source`: the object that shines, or
 // FROM_BACKGROUND or FROM_SUN.
-void gather_sampled(precise inout Path path, Meeting at, LightSample light, int source) {
-    precise float height = dot(light.ray.direction, at.normals.facing);
-    precise float along = dot(light.ray.direction, at.vertex.frame[2]);
+void gather_sampled(inout Path path, Meeting at, LightSample light, int source) {
+    float height = dot(light.ray.direction, at.normals.facing);
+    float along = dot(light.ray.direction, at.vertex.frame[2]);
     if (HAS_SHADING && height * along <= 0.0) light.pdf = 0.0;
-    precise float rho = path.rivals.rho * path_turn(path, at, light.ray.direction, links_at(path, at.vertex));
-    precise vec3 direct = path.scale * path.throughput * direct_light(at.vertex, light, rho);
+    float rho = path.rivals.rho * path_turn(path, at, light.ray.direction, links_at(path, at.vertex));
+    vec3 direct = path.scale * path.throughput * direct_light(at.vertex, light, rho);
     if (HAS_ATTENUATION) direct *= share_left(along < 0.0 ? at.behind : path.absorption, light.distance);
     record_sample(light.ray.direction, light.distance);
     record_light(BY_SAMPLING, source, light.pdf, light.radiance, direct);
@@ -112,24 +112,24 @@ void gather_sampled(precise inout Path path, Meeting at, LightSample light, int 
 // The share of the sky's light that scattering may count.
 float sky_weight(Path path) {
     if (SKY_SENDS && path.rivals.rho > 0.0) {
-        precise float kappa = SAMPLE_SKY && path.pdf > 0.0 ? pdf_sky(path.ray.direction) / path.pdf : 0.0;
-        precise float share = emission_beside_particles(path.ray, Hit(0.0, NO_SHAPE), SKY_LIGHT, kappa, path.rivals.rho);
+        float kappa = SAMPLE_SKY && path.pdf > 0.0 ? pdf_sky(path.ray.direction) / path.pdf : 0.0;
+        float share = emission_beside_particles(path.ray, Hit(0.0, NO_SHAPE), SKY_LIGHT, kappa, path.rivals.rho);
         record_weight(kappa * path.pdf, share);
         return share;
     }
     if (!SAMPLE_SKY || path.pdf == 0.0) return 1.0;
-    precise float light_pdf = pdf_sky(path.ray.direction);
+    float light_pdf = pdf_sky(path.ray.direction);
     if (light_pdf == 0.0) return 1.0;
-    precise float weight = WEIGHT_BOTH ? power_heuristic(path.pdf, light_pdf) : 0.0;
+    float weight = WEIGHT_BOTH ? power_heuristic(path.pdf, light_pdf) : 0.0;
     record_weight(light_pdf, weight);
     return weight;
 }
 
 // Adds the light of the sky where a path leaves the scene.
-void gather_sky(precise inout Path path) {
+void gather_sky(inout Path path) {
     if (!HAS_BACKGROUND) return;
-    precise vec3 radiance = background(path.ray.direction);
-    precise vec3 light = path.scale * path.throughput * radiance;
+    vec3 radiance = background(path.ray.direction);
+    vec3 light = path.scale * path.throughput * radiance;
     if (HAS_ATTENUATION) light *= share_left_of_sky(path.absorption);
     if (SAMPLE_SKY || SKY_SENDS) light *= sky_weight(path);
     record_light(BY_SCATTERING, FROM_BACKGROUND, path.pdf, radiance, light);
@@ -137,17 +137,17 @@ void gather_sky(precise inout Path path) {
 }
 
 // Adds the light of the sun where a path leaves the scene towards it.
-void gather_sun(precise inout Path path) {
+void gather_sun(inout Path path) {
     if (!HAS_SUN || !meets_sun(path.ray.direction)) return;
-    precise vec3 light = path.scale * path.throughput * frame.sun_radiance;
+    vec3 light = path.scale * path.throughput * frame.sun_radiance;
     if (HAS_ATTENUATION) light *= share_left_of_sky(path.absorption);
     if (HAS_PARTICLES && path.rivals.rho > 0.0) {
-        precise float kappa = path.pdf > 0.0 ? pdf_sun() / path.pdf : 0.0;
-        precise float weight = emission_beside_particles(path.ray, Hit(0.0, NO_SHAPE), SUN_LIGHT, kappa, path.rivals.rho);
+        float kappa = path.pdf > 0.0 ? pdf_sun() / path.pdf : 0.0;
+        float weight = emission_beside_particles(path.ray, Hit(0.0, NO_SHAPE), SUN_LIGHT, kappa, path.rivals.rho);
         record_weight(kappa * path.pdf, weight);
         light *= weight;
     } else if (SAMPLE_SUN && path.pdf > 0.0) {
-        precise float weight = WEIGHT_BOTH ? power_heuristic(path.pdf, pdf_sun()) : 0.0;
+        float weight = WEIGHT_BOTH ? power_heuristic(path.pdf, pdf_sun()) : 0.0;
         record_weight(pdf_sun(), weight);
         light *= weight;
     }
@@ -157,31 +157,31 @@ void gather_sun(precise inout Path path) {
 
 // Adds direct light where the path meets a surface, by one sample of each kind of light. `resamples`: lamps are
 // candidates of a reservoir.
-void gather_direct(precise inout Path path, Meeting at, bool resamples, precise inout Sampler rng) {
+void gather_direct(inout Path path, Meeting at, bool resamples, inout Sampler rng) {
     if (is_delta(at.vertex.material)) return;
     if (SAMPLE_LIGHTS) {
-        precise LightSample light = sample_light(at.ray, path.lamps, rng);
+        LightSample light = sample_light(at.ray, path.lamps, rng);
         if (RESAMPLES_LAMPS && resamples) offer_lamp(light, at.normals.facing);
         else gather_sampled(path, at, light, object_number(light.shape));
     }
     if (SAMPLE_SKY) {
-        precise LightSample light = sample_sky(at.ray, rng);
+        LightSample light = sample_sky(at.ray, rng);
         gather_sampled(path, at, light, FROM_BACKGROUND);
     }
     if (SAMPLE_SUN) {
-        precise LightSample light = sample_sun(at.ray, rng);
+        LightSample light = sample_sun(at.ray, rng);
         gather_sampled(path, at, light, FROM_SUN);
     }
 }
 
 // Adds the emission of the surface that the path meets.
-void gather_emission(precise inout Path path, Surface surface, Material material, float share) {
-    precise vec3 emission = emitted(material, -path.ray.direction, dot(path.ray.direction, true_normal(surface)) < 0.0);
+void gather_emission(inout Path path, Surface surface, Material material, float share) {
+    vec3 emission = emitted(material, -path.ray.direction, dot(path.ray.direction, true_normal(surface)) < 0.0);
     if (is_candidate(emission)) {
         offer_met(path, surface, emission, share);
         return;
     }
-    precise vec3 light = path.scale * path.throughput * emission * share;
+    vec3 light = path.scale * path.throughput * emission * share;
     record_light(BY_SCATTERING, object_number(surface.shape), path.pdf, emission, light);
     gather(path, light, material.layer, path.depth);
 }
@@ -192,10 +192,10 @@ bool is_lost(Meeting at, Scattering next) {
 }
 
 // Gathers direct light at a surface, then scatters the path there; false when the path ends.
-bool scatter_path(precise inout Path path, Surface surface, Material whole, precise inout Sampler rng) {
+bool scatter_path(inout Path path, Surface surface, Material whole, inout Sampler rng) {
     leave_vertex(rng.seed, path.depth + 1);
-    precise Material material = part_met(whole, rng);
-    precise Meeting at = meet(path, surface, material, true);
+    Material material = part_met(whole, rng);
+    Meeting at = meet(path, surface, material, true);
     if (!is_followed(material)) {
         shade(path, at.vertex, at.ray, rng);
         return false;
@@ -206,7 +206,7 @@ bool scatter_path(precise inout Path path, Surface surface, Material whole, prec
     if (resamples) begin_resampling(path, at.vertex, at.ray);
     gather_direct(path, at, resamples, rng);
     gather_from_probes(path, at.vertex, surface.position, rng);
-    precise Scattering next = sample_material(at.vertex, rng);
+    Scattering next = sample_material(at.vertex, rng);
     record_scattering(at.vertex.frame[2], next.direction, next.pdf, next.crosses);
     if (is_lost(at, next)) {
         record_end(END_BELOW_SURFACE);
@@ -231,18 +231,18 @@ bool scatter_path(precise inout Path path, Surface surface, Material whole, prec
 }
 
 // Follows one segment; false when the path ends with it.
-bool extend_path(precise inout Path path, precise inout Sampler rng) {
+bool extend_path(inout Path path, inout Sampler rng) {
     if (path.passed.holes == 0u) leave_vertex(rng.seed, path.depth);
-    precise Hit hit = closest_hit(path.ray);
+    Hit hit = closest_hit(path.ray);
     if (hit.shape == NO_SHAPE) {
         gather_sky(path);
         gather_sun(path);
         record_end(END_LEFT_SCENE);
         return false;
     }
-    precise Surface surface = surface_at(path.ray, hit);
-    precise Material material = material_of(path.ray, surface);
-    precise float share = weight_of_emission(path, hit, surface.light);
+    Surface surface = surface_at(path.ray, hit);
+    Material material = material_of(path.ray, surface);
+    float share = weight_of_emission(path, hit, surface.light);
     bool enters = dot(path.ray.direction, true_normal(surface)) < 0.0;
     absorb(path, material, !enters, hit.distance);
     record_vertex(surface.position, true_normal(surface), surface.normal, object_number(surface.shape), hit.distance,

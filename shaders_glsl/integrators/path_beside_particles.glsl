@@ -13,10 +13,10 @@ float rho_beyond(Path path, Meeting at) {
     if (!HAS_PARTICLES) return path.rivals.rho;
     if (!carries_particles(at.vertex.material)) return 0.0;
     if (!links_at(path, at.vertex)) return path.rivals.rho;
-    precise float cosine = HAS_SHADING ? -dot(path.ray.direction, at.normals.facing) : at.vertex.wo.z;
+    float cosine = HAS_SHADING ? -dot(path.ray.direction, at.normals.facing) : at.vertex.wo.z;
     if (path.depth > 0) return rho_of_link(path.rivals.chain, at.ray.origin, cosine);
-    precise float distance = length(at.ray.origin - path.ray.origin);
-    precise float rho = pdf_film(path.ray.direction, cosine, distance) / frame.particles;
+    float distance = length(at.ray.origin - path.ray.origin);
+    float rho = pdf_film(path.ray.direction, cosine, distance) / frame.particles;
     return rho;
 }
 

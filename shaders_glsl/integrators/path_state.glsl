@@ -36,18 +36,18 @@ struct Path {
 };
 
 Path start_path(Ray ray) {
-    precise vec3 absorption = HAS_ATTENUATION ? frame.camera_absorption : vec3(0.0);
+    vec3 absorption = HAS_ATTENUATION ? frame.camera_absorption : vec3(0.0);
     uint counts = HAS_NESTED ? frame.camera_counts : 0u;
-    precise Passed passed = Passed(0u, ray, 0.0);
-    precise Rivals rivals = Rivals(0.0, start_chain(ray));
-    precise Asking asking = Asking(!FINAL_GATHER || FROM_PROBES, false);
+    Passed passed = Passed(0u, ray, 0.0);
+    Rivals rivals = Rivals(0.0, start_chain(ray));
+    Asking asking = Asking(!FINAL_GATHER || FROM_PROBES, false);
     return Path(ray, vec3(1.0), 1.0, vec3(0.0), 0.0, 0.0, 0, absorption, counts, passed, rivals, asking, NO_LAYERS);
 }
 
 // Adds light of a lamp that is `length` scattering events from the camera; `group` is its layer. A path of a probe
 // leaves out emission that the probe itself sees: for a surface that the probe lights, this is direct light, which
 // paths find.
-void gather(precise inout Path path, vec3 light, int group, int length) {
+void gather(inout Path path, vec3 light, int group, int length) {
     if (FROM_PROBES && length == 0) return;
     path.radiance += light;
     if (LAYERS > 0) add_to_layer(path.layers, light, BY_LENGTH ? length : group);

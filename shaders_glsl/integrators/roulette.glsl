@@ -5,9 +5,9 @@
 // sequences, meet them exactly.
 const float CHANCES = 65536.0;
 
-bool ends_at_random(precise inout vec3 throughput, float keep, precise inout Sampler rng) {
-    precise float brightest = max(throughput.x, max(throughput.y, throughput.z));
-    precise float survival = min(ceil(keep * CHANCES * brightest) / CHANCES, 1.0);
+bool ends_at_random(inout vec3 throughput, float keep, inout Sampler rng) {
+    float brightest = max(throughput.x, max(throughput.y, throughput.z));
+    float survival = min(ceil(keep * CHANCES * brightest) / CHANCES, 1.0);
     record_survival(survival);
     if (next_1d(rng) >= survival) return true;
     throughput /= survival;

@@ -1,12 +1,12 @@
 // The samples that one dispatch adds to one pixel.
 
-Path camera_path(ivec2 place, precise inout Sampler rng) {
+Path camera_path(ivec2 place, inout Sampler rng) {
     return start_path(camera_ray(frame.camera, vec2(frame.size), vec2(place), rng));
 }
 
 // Count of rays of a sample, which replaces radiance where COUNT_RAYS.
 vec3 rays_of_sample() {
-    precise vec3 rays = vec3(rays_so_far);
+    vec3 rays = vec3(rays_so_far);
     rays_so_far = 0.0;
     return rays;
 }
@@ -20,11 +20,11 @@ vec3 value_of(Path path) {
 // One loop over the segments of all paths: a lane whose path has ended starts its next sample at
 // once and does not wait for its neighbours. `place`: pixel in the full frame. Returns how many
 // samples are lost because the driver ended a loop early: this loop, or one of a ray.
-int add_samples(precise inout Pixel pixel, precise inout Layers layers, ivec2 place) {
+int add_samples(inout Pixel pixel, inout Layers layers, ivec2 place) {
     int index = frame.first_sample;
     int end = index + frame.sample_count;
-    precise Sampler rng = sampler_at(place, index, frame.seed);
-    precise Path path = camera_path(place, rng);
+    Sampler rng = sampler_at(place, index, frame.seed);
+    Path path = camera_path(place, rng);
     start_resampling(rng);
     while (index < end) {
         if (extend_path(path, rng)) continue;
@@ -41,7 +41,7 @@ int add_samples(precise inout Pixel pixel, precise inout Layers layers, ivec2 pl
     return end - index;
 }
 
-int add_samples(precise inout Pixel pixel, ivec2 place) {
-    precise Layers none = empty_layers();
+int add_samples(inout Pixel pixel, ivec2 place) {
+    Layers none = empty_layers();
     return add_samples(pixel, none, place);
 }

@@ -17,8 +17,8 @@ struct Normals {
 // Whether a path in this direction scatters around the true normal. It does where the normal for shading faces away
 // from where the path comes from, or would reflect the path through the surface. Both normals are on that side.
 bool scatters_flat(vec3 facing, vec3 normal, vec3 direction) {
-    precise float along = dot(normal, direction);
-    precise vec3 reflected = direction - 2.0 * along * normal;
+    float along = dot(normal, direction);
+    vec3 reflected = direction - 2.0 * along * normal;
     return along >= 0.0 || dot(reflected, facing) <= 0.0;
 }
 
@@ -30,7 +30,7 @@ mat3 shading_frame(vec3 facing, vec3 normal, vec3 direction) {
 
 // scatters_flat of a path from the camera that comes from wo, on either side.
 bool is_flat_towards(Normals at, vec3 wo) {
-    precise float side = dot(wo, at.facing) < 0.0 ? -1.0 : 1.0;
+    float side = dot(wo, at.facing) < 0.0 ? -1.0 : 1.0;
     return scatters_flat(side * at.facing, side * at.shading, -wo);
 }
 
@@ -38,7 +38,7 @@ bool is_flat_towards(Normals at, vec3 wo) {
 // particle's flux. `normal` is on the side of `facing`. The result is 0 where no path from the camera takes this way.
 float turn_around(vec3 normal, vec3 facing, vec3 wi, vec3 wo, bool is_smooth) {
     if (!HAS_SHADING) return 1.0;
-    precise float turn = dot(wi, normal) / dot(wi, facing);
+    float turn = dot(wi, normal) / dot(wi, facing);
     if (is_smooth) turn *= dot(wo, facing) / dot(wo, normal);
     return turn > 0.0 && turn < FAR ? turn : 0.0;
 }

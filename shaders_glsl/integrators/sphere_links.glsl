@@ -29,19 +29,19 @@ struct Arc {
 };
 
 Arc arc_of(vec3 eye, vec3 vertex, Sphere sphere, float ior, int chords) {
-    precise vec3 u = eye - sphere.center;
-    precise vec3 v = vertex - sphere.center;
-    precise vec3 inverses = 1.0 / vec3(length(u), length(v), chords > 0 ? ior : 1.0);
-    precise vec3 to_eye = u * inverses.x;
-    precise vec3 to_vertex = v * inverses.y;
-    precise float cosine = dot(to_eye, to_vertex);
-    precise float sine = length(cross(to_eye, to_vertex));
-    precise vec3 ratios = inverses * vec3(sphere.radius, sphere.radius, chords > 0 ? 1.0 : 0.0);
+    vec3 u = eye - sphere.center;
+    vec3 v = vertex - sphere.center;
+    vec3 inverses = 1.0 / vec3(length(u), length(v), chords > 0 ? ior : 1.0);
+    vec3 to_eye = u * inverses.x;
+    vec3 to_vertex = v * inverses.y;
+    float cosine = dot(to_eye, to_vertex);
+    float sine = length(cross(to_eye, to_vertex));
+    vec3 ratios = inverses * vec3(sphere.radius, sphere.radius, chords > 0 ? 1.0 : 0.0);
     return Arc(to_eye, to_vertex, ratios, sphere.radius, cosine, sine, chords);
 }
 
 float first_slope(Arc arc) {
-    precise float slope = 2.0 - arc.ratios.x - arc.ratios.y - 2.0 * float(arc.chords) * arc.ratios.z;
+    float slope = 2.0 - arc.ratios.x - arc.ratios.y - 2.0 * float(arc.chords) * arc.ratios.z;
     return slope;
 }
 
@@ -52,21 +52,21 @@ bool has_links(Arc arc) {
 }
 
 float cosine_of(float sine) {
-    precise float cosine = sqrt(max((1.0 - sine) * (1.0 + sine), 0.0));
+    float cosine = sqrt(max((1.0 - sine) * (1.0 + sine), 0.0));
     return cosine;
 }
 
 // Cosines of the angles at which the way meets the eye, the vertex, and the sphere from inside.
 vec3 cosines_along(Arc arc, float sine) {
-    precise vec3 s = arc.ratios * sine;
-    precise vec3 cosines = sqrt(max((1.0 - s) * (1.0 + s), 0.0));
+    vec3 s = arc.ratios * sine;
+    vec3 cosines = sqrt(max((1.0 - s) * (1.0 + s), 0.0));
     return cosines;
 }
 
 // dD / dt.
 float slope_of(Arc arc, vec3 cosines, float cosine) {
-    precise vec3 each = arc.ratios / cosines;
-    precise float slope = 2.0 - cosine * (each.x + each.y + 2.0 * float(arc.chords) * each.z);
+    vec3 each = arc.ratios / cosines;
+    float slope = 2.0 - cosine * (each.x + each.y + 2.0 * float(arc.chords) * each.z);
     return slope;
 }
 
@@ -78,16 +78,16 @@ struct Incidence {
 };
 
 Incidence incidence_of(float half_tangent) {
-    precise float square = half_tangent * half_tangent;
-    precise float over = 1.0 / (1.0 + square);
-    precise float sine = 2.0 * half_tangent * over;
-    precise float cosine = (1.0 - square) * over;
+    float square = half_tangent * half_tangent;
+    float over = 1.0 / (1.0 + square);
+    float sine = 2.0 * half_tangent * over;
+    float cosine = (1.0 - square) * over;
     return Incidence(half_tangent, sine, cosine);
 }
 
 // Turns `a` back by the angle of `b`, as complex numbers of size 1.
 vec2 turned_back(vec2 a, vec2 b) {
-    precise vec2 turned = vec2(a.x * b.x + a.y * b.y, a.y * b.x - a.x * b.y);
+    vec2 turned = vec2(a.x * b.x + a.y * b.y, a.y * b.x - a.x * b.y);
     return turned;
 }
 
@@ -102,18 +102,18 @@ float sense_of(Branch branch, int chords) { return chords == 1 ? -branch.sign : 
 
 // D less the angle of a branch. Beyond a few degrees the result is too small, by a third at half a turn.
 float miss_of(Arc arc, Incidence at, vec3 cosines, Branch branch) {
-    precise vec3 sines = arc.ratios * at.sine;
-    precise vec2 half_way = vec2(at.cosine, at.sine);
-    precise vec2 inside = vec2(cosines.z, sines.z);
+    vec3 sines = arc.ratios * at.sine;
+    vec2 half_way = vec2(at.cosine, at.sine);
+    vec2 inside = vec2(cosines.z, sines.z);
     if (arc.chords > 0) half_way = turned_back(half_way, inside);
     if (arc.chords > 1) half_way = turned_back(half_way, inside);
-    precise vec2 turn = turned_back(half_way, vec2(cosines.x, sines.x));
-    precise vec2 rest = turned_back(half_way, vec2(cosines.y, sines.y));
+    vec2 turn = turned_back(half_way, vec2(cosines.x, sines.x));
+    vec2 rest = turned_back(half_way, vec2(cosines.y, sines.y));
     turn = turned_back(turn, vec2(rest.x, -rest.y));
-    precise float parity = arc.chords == 1 ? -1.0 : 1.0;
+    float parity = arc.chords == 1 ? -1.0 : 1.0;
     turn = turned_back(turn, vec2(parity * arc.cosine, branch.sign * arc.sine));
-    precise float half_tangent = turn.x > 0.0 ? turn.y / (1.0 + turn.x) : turn.y > 0.0 ? 1.0 : -1.0;
-    precise float miss = 2.0 * half_tangent * (1.0 - half_tangent * half_tangent / 3.0);
+    float half_tangent = turn.x > 0.0 ? turn.y / (1.0 + turn.x) : turn.y > 0.0 ? 1.0 : -1.0;
+    float miss = 2.0 * half_tangent * (1.0 - half_tangent * half_tangent / 3.0);
     return miss;
 }
 
@@ -121,16 +121,16 @@ float miss_of(Arc arc, Incidence at, vec3 cosines, Branch branch) {
 // convex curve. It goes towards the angle and not beyond, since its steps are never too long. There is no solution
 // if the slope changes its sign before the method gets there.
 float meeting_of(Arc arc, Branch branch) {
-    precise float m = branch.falls ? 0.0 : 1.0;
-    precise float found = -1.0;
+    float m = branch.falls ? 0.0 : 1.0;
+    float found = -1.0;
     for (int i = 0; i < ROUNDS; ++i) {
-        precise Incidence at = incidence_of(m);
-        precise vec3 cosines = cosines_along(arc, at.sine);
-        precise float miss = miss_of(arc, at, cosines, branch);
-        precise float slope = slope_of(arc, cosines, at.cosine);
-        precise float way = miss / slope;
-        precise float half_way = 0.5 * way;
-        precise float half_tangent = half_way * (1.0 + half_way * half_way / 3.0);  // or a little less
+        Incidence at = incidence_of(m);
+        vec3 cosines = cosines_along(arc, at.sine);
+        float miss = miss_of(arc, at, cosines, branch);
+        float slope = slope_of(arc, cosines, at.cosine);
+        float way = miss / slope;
+        float half_way = 0.5 * way;
+        float half_tangent = half_way * (1.0 + half_way * half_way / 3.0);  // or a little less
         m = (m - half_tangent) / (1.0 + m * half_tangent);
         bool is_close = abs(way) < CLOSE;
         if (is_close) found = clamp(m, 0.0, 1.0);
@@ -148,27 +148,27 @@ struct Crossing {
 };
 
 Crossing crossing_of(Arc arc, float sine) {
-    precise float cosine = cosine_of(sine);
-    precise vec3 cosines = cosines_along(arc, sine);
+    float cosine = cosine_of(sine);
+    vec3 cosines = cosines_along(arc, sine);
     return Crossing(cosines, sine, cosine, slope_of(arc, cosines, cosine));
 }
 
 // Solid angle at the eye over area at the vertex, across the ray; 0: no link.
 float spread_of(Arc arc, Crossing at) {
-    precise float over = at.cosines.x * at.cosines.y * arc.sine * abs(at.slope);
+    float over = at.cosines.x * at.cosines.y * arc.sine * abs(at.slope);
     bool is_finite_there = over > 0.0 && over < FAR;  // false where a way leaves along the sphere
     if (!is_finite_there || abs(at.slope) < FLAT || !has_links(arc)) return 0.0;
-    precise float across = arc.ratios.x * arc.ratios.y / arc.radius;
-    precise float spread = across * across * at.sine * at.cosine / over;
+    float across = arc.ratios.x * arc.ratios.y / arc.radius;
+    float spread = across * across * at.sine * at.cosine / over;
     return spread;
 }
 
 // The probability that a path which meets the sphere takes this way: Fresnel's share at each surface.
 float chance_of(Material material, Crossing at, int chords) {
     if (!(HAS_DIELECTRIC && material.kind == DIELECTRIC)) return 1.0;
-    precise float reflected = fresnel(at.cosine, 1.0 / material.ior);
-    precise float passed = (1.0 - reflected) * (1.0 - reflected);
-    precise float chance = chords == 0 ? reflected : chords == 1 ? passed : passed * reflected;
+    float reflected = fresnel(at.cosine, 1.0 / material.ior);
+    float passed = (1.0 - reflected) * (1.0 - reflected);
+    float chance = chords == 0 ? reflected : chords == 1 ? passed : passed * reflected;
     return chance;
 }
 
@@ -176,7 +176,7 @@ float chance_of(Material material, Crossing at, int chords) {
 vec3 tint_of(Material material, Arc arc, Crossing at) {
     if (!(HAS_DIELECTRIC && material.kind == DIELECTRIC)) return metal_reflectance(material, at.cosine);
     if (!HAS_ATTENUATION) return vec3(1.0);
-    precise float inside = float(2 * arc.chords) * arc.radius * at.cosines.z;
+    float inside = float(2 * arc.chords) * arc.radius * at.cosines.z;
     return share_left(absorption_of_glass(material.details), inside);
 }
 
@@ -189,7 +189,7 @@ int draw_chords(Material material, float u) {
 
 // The share of draws that take one sphere with `chords` chords.
 float share_of_draws(Material material, int chords) {
-    precise float share = 1.0 / float(bitCount(LINKED));
+    float share = 1.0 / float(bitCount(LINKED));
     if (!(HAS_DIELECTRIC && material.kind == DIELECTRIC)) return share;
     share *= chords == 1 ? 1.0 - 2.0 * REFLECTED : REFLECTED;
     return share;
@@ -210,14 +210,14 @@ float share_of_branch(Arc arc, bool falls) {
 // Density of a way from the camera, on the film and per area of the vertex. `cosine`: between the way and the normal of
 // the vertex. `film`: density of the ray per solid angle.
 float pdf_of_way(float film, Material material, Arc arc, Crossing at, float cosine) {
-    precise float pdf = film * cosine * spread_of(arc, at) * chance_of(material, at, arc.chords);
+    float pdf = film * cosine * spread_of(arc, at) * chance_of(material, at, arc.chords);
     return pdf;
 }
 
 // How many particles for each sample of a pixel are linked this way, if they come to the vertex.
 float linked_this_way(Material material, Arc arc, Crossing at) {
-    precise float share = share_of_draws(material, arc.chords) * share_of_branch(arc, at.slope < 0.0);
-    precise float count = frame.particles * frame.linked * share;
+    float share = share_of_draws(material, arc.chords) * share_of_branch(arc, at.slope < 0.0);
+    float count = frame.particles * frame.linked * share;
     return count;
 }
 
@@ -245,7 +245,7 @@ Chain start_chain(Ray ray) {
 bool is_linked(int shape) { return shape < sphere_count() && shape < 31 && (LINKED >> shape & 1) != 0; }
 
 // Updates the chain after scattering at a vertex of the object `shape`.
-void follow_chain(precise inout Chain chain, int shape, Vertex vertex, bool crosses) {
+void follow_chain(inout Chain chain, int shape, Vertex vertex, bool crosses) {
     if (LINKED == 0) return;
     int before = chain.state;
     chain.state = BROKEN;
@@ -264,10 +264,10 @@ void follow_chain(precise inout Chain chain, int shape, Vertex vertex, bool cros
 // rho that particles linked through a sphere are weighed against, at a vertex; `cosine`: at its normal.
 float rho_of_link(Chain chain, vec3 position, float cosine) {
     if (chain.state != LINKING) return 0.0;
-    precise Sphere sphere = sphere_at(chain.sphere);
-    precise Material material = material_at(sphere.material);
-    precise Arc arc = arc_of(chain.eye, position, sphere, material.ior, chain.chords);
-    precise Crossing at = crossing_of(arc, chain.sine);
-    precise float rho = pdf_of_way(chain.film, material, arc, at, cosine) / linked_this_way(material, arc, at);
+    Sphere sphere = sphere_at(chain.sphere);
+    Material material = material_at(sphere.material);
+    Arc arc = arc_of(chain.eye, position, sphere, material.ior, chain.chords);
+    Crossing at = crossing_of(arc, chain.sine);
+    float rho = pdf_of_way(chain.film, material, arc, at, cosine) / linked_this_way(material, arc, at);
     return rho;
 }

@@ -7,24 +7,24 @@
 // Weight of a cluster or a part, seen from the origin of `ray`, whose direction is ignored. It is 0 for the
 // lamp that the ray leaves, where this lamp is a cluster of its own.
 float cluster_weight(int index, Ray ray) {
-    precise Cluster cluster = cluster_at(index);
+    Cluster cluster = cluster_at(index);
     if (cluster.shape == ray.origin_shape) return 0.0;
-    precise vec3 away = cluster.center - ray.origin;
-    precise float weight = cluster.probability / max(dot(away, away), cluster.reach2);
+    vec3 away = cluster.center - ray.origin;
+    float weight = cluster.probability / max(dot(away, away), cluster.reach2);
     if (IS_AIMED) weight *= share_towards(aim_at(index), -away);
     return weight;
 }
 
 // Weight of all lamps together.
 float total_weight(Ray ray) {
-    precise float total = 0.0;
+    float total = 0.0;
     for (int i = 0; i < CLUSTERS; ++i) total += cluster_weight(i, ray);
     return total;
 }
 
 int choose_cluster(Ray ray, float total, float u) {
-    precise float target = u * total;
-    precise float sum = 0.0;
+    float target = u * total;
+    float sum = 0.0;
     int chosen = 0;
     for (int i = 1; i < CLUSTERS; ++i) {
         sum += cluster_weight(i - 1, ray);
@@ -37,14 +37,14 @@ int first_part(int cluster) { return CLUSTERS + PARTS * cluster; }
 
 // Weight of all parts of a cluster together.
 float parts_weight(int cluster, Ray ray) {
-    precise float total = 0.0;
+    float total = 0.0;
     for (int i = 0; i < PARTS; ++i) total += cluster_weight(first_part(cluster) + i, ray);
     return total;
 }
 
 int choose_part(int cluster, Ray ray, float u) {
-    precise float target = u * parts_weight(cluster, ray);
-    precise float sum = 0.0;
+    float target = u * parts_weight(cluster, ray);
+    float sum = 0.0;
     int chosen = first_part(cluster);
     for (int i = 1; i < PARTS; ++i) {
         sum += cluster_weight(first_part(cluster) + i - 1, ray);
@@ -55,10 +55,10 @@ int choose_part(int cluster, Ray ray, float u) {
 
 // The alias method (Vose 1991): one number chooses a lamp, however many there are.
 int choose_by_table(Cluster part, float u) {
-    precise float scaled = u * float(part.count);
+    float scaled = u * float(part.count);
     int index = min(int(scaled), part.count - 1);
-    precise Light light = light_at(part.first + index);
-    precise float rest = scaled - float(index);
+    Light light = light_at(part.first + index);
+    float rest = scaled - float(index);
     return rest < light.keep ? part.first + index : light.alias & 0xFFFF;
 }
 
@@ -75,15 +75,15 @@ float choice_pdf(int index, Ray ray, float total) {
     if (!MANY_LIGHTS) {
         if (CLUSTERS == 1) return 1.0;
         if (IS_AIMED && total == 0.0) return 0.0;  // none can be seen
-        precise float pdf = cluster_weight(index, ray) / total;
+        float pdf = cluster_weight(index, ray) / total;
         return pdf;
     }
-    precise Light light = light_at(index);
+    Light light = light_at(index);
     int part = light.alias >> 16;
     int cluster = (part - CLUSTERS) / PARTS;
-    precise float parts = parts_weight(cluster, ray);
+    float parts = parts_weight(cluster, ray);
     if (IS_AIMED && (total == 0.0 || parts == 0.0)) return 0.0;  // none can be seen
-    precise float chance = cluster_weight(part, ray) / parts;
-    precise float pdf = cluster_weight(cluster, ray) / total * chance * light.share;
+    float chance = cluster_weight(part, ray) / parts;
+    float pdf = cluster_weight(cluster, ray) / total * chance * light.share;
     return pdf;
 }

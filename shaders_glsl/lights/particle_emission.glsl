@@ -19,7 +19,7 @@ int ball_count() { return bitCount(CASTERS) + TARGETS; }
 bool is_aimed() { return CASTERS != 0 || TARGETS > 0; }
 
 int choose_emitter(float u) {
-    precise float sum = 0.0;
+    float sum = 0.0;
     int chosen = NO_LIGHT;
     for (int i = 0; i < CLUSTERS; ++i) {
         if (chosen == NO_LIGHT || sum <= u) chosen = i;
@@ -33,32 +33,32 @@ bool is_caster(int sphere) { return (CASTERS >> sphere & 1) != 0; }
 // 1 / (1 - cos) of the cone that a ball fills, written without the difference. It is 0 where the line passes by, or
 // from inside. `certain`: the ray was aimed at this ball, so it counts even if rounding took it past the rim.
 float narrowness(vec3 center, float radius, vec3 p, vec3 direction, bool certain) {
-    precise vec3 away = center - p;
-    precise float along = dot(away, direction);
-    precise vec3 beside = away - along * direction;
-    precise float d2 = dot(away, away);
-    precise float r2 = radius * radius;
+    vec3 away = center - p;
+    float along = dot(away, direction);
+    vec3 beside = away - along * direction;
+    float d2 = dot(away, away);
+    float r2 = radius * radius;
     bool meets = certain || along > 0.0 && dot(beside, beside) < r2;
     if (!(meets && d2 > r2)) return 0.0;
-    precise float inverse = (d2 + sqrt(d2 * (d2 - r2))) / r2;
+    float inverse = (d2 + sqrt(d2 * (d2 - r2))) / r2;
     return inverse;
 }
 
 // Density per solid angle of directions from p aimed at balls; `certain`: the number of the ball that was aimed at.
 float pdf_aimed(vec3 p, vec3 direction, int certain) {
-    precise float sum = 0.0;
+    float sum = 0.0;
     if (CASTERS != 0) {
         for (int i = 0; i < sphere_count(); ++i) {
             if (!is_caster(i)) continue;
-            precise Sphere sphere = sphere_at(i);
+            Sphere sphere = sphere_at(i);
             sum += narrowness(sphere.center, sphere.radius, p, direction, i == certain);
         }
     }
     for (int i = 0; i < TARGETS; ++i) {
-        precise Target target = target_at(i);
+        Target target = target_at(i);
         sum += narrowness(target.center, target.radius, p, direction, FIRST_TARGET + i == certain);
     }
-    precise float pdf = sum * (0.5 / (PI * float(ball_count())));
+    float pdf = sum * (0.5 / (PI * float(ball_count())));
     return pdf;
 }
 
@@ -82,34 +82,34 @@ int choose_aim(float u) {
 
 Target aimed_at(int number) {
     if (TARGETS > 0 && (CASTERS == 0 || number >= FIRST_TARGET)) return target_at(number - FIRST_TARGET);
-    precise Sphere sphere = sphere_at(number);
+    Sphere sphere = sphere_at(number);
     return Target(sphere.center, sphere.radius);
 }
 
 // Density per area of the lines across the disk that a ball fills; 0 for lines that pass by.
 float density_across(vec3 center, float radius, vec3 p, vec3 direction, bool certain) {
-    precise vec3 away = center - p;
-    precise vec3 beside = away - dot(away, direction) * direction;
-    precise float r2 = radius * radius;
+    vec3 away = center - p;
+    vec3 beside = away - dot(away, direction) * direction;
+    float r2 = radius * radius;
     if (!certain && dot(beside, beside) >= r2) return 0.0;
-    precise float density = 1.0 / (PI * r2);
+    float density = 1.0 / (PI * r2);
     return density;
 }
 
 // Density of particles from afar on a line through p, per area across the line.
 float density_from_afar(vec3 p, vec3 direction, int certain) {
-    precise float density = density_across(frame.bounds_center, frame.bounds_radius, p, direction, false);
+    float density = density_across(frame.bounds_center, frame.bounds_radius, p, direction, false);
     if (is_aimed()) {
-        precise float sum = 0.0;
+        float sum = 0.0;
         if (CASTERS != 0) {
             for (int i = 0; i < sphere_count(); ++i) {
                 if (!is_caster(i)) continue;
-                precise Sphere sphere = sphere_at(i);
+                Sphere sphere = sphere_at(i);
                 sum += density_across(sphere.center, sphere.radius, p, direction, i == certain);
             }
         }
         for (int i = 0; i < TARGETS; ++i) {
-            precise Target target = target_at(i);
+            Target target = target_at(i);
             sum += density_across(target.center, target.radius, p, direction, FIRST_TARGET + i == certain);
         }
         density = (1.0 - frame.aimed) * density + frame.aimed * sum / float(ball_count());
@@ -120,20 +120,20 @@ float density_from_afar(vec3 p, vec3 direction, int certain) {
 // PI times the density of particles from the sun on a line through p, per area across the line and per solid angle.
 // The line has the direction of the sun.
 float pdf_from_sun(vec3 p, vec3 direction, int certain) {
-    precise float pdf = PI * frame.from_sun * pdf_sun() * density_from_afar(p, direction, certain);
+    float pdf = PI * frame.from_sun * pdf_sun() * density_from_afar(p, direction, certain);
     return pdf;
 }
 
 // Density per solid angle of directions towards the part of the sky that particles come from.
 float pdf_sky_direction(vec3 towards) {
-    precise float density = 0.25 / PI;
+    float density = 0.25 / PI;
     if (HAS_ENVIRONMENT) density = pdf_sky(towards);
     return density;
 }
 
 // The same for the sky; `direction` is the direction of the particles, and the sky lies behind them.
 float pdf_from_sky(vec3 p, vec3 direction, int certain) {
-    precise float pdf = PI * pdf_sky_direction(-direction) * density_from_afar(p, direction, certain);
+    float pdf = PI * pdf_sky_direction(-direction) * density_from_afar(p, direction, certain);
     return pdf;
 }
 
@@ -150,34 +150,34 @@ struct Aspect {
 
 // Share of the particles that leave this side of a flat lamp by the cosine.
 float share_of_side(int index, bool is_front) {
-    precise Sides sides = sides_at(index);
+    Sides sides = sides_at(index);
     return is_front ? sides.front : sides.back;
 }
 
 Aspect aspect_of(int index, vec3 p, vec3 direction) {
-    precise Light light = light_at(index);
+    Light light = light_at(index);
     if (is_sphere_lamp(light.shape)) {
-        precise Sphere sphere = sphere_at(light.shape);
-        precise float area = 4.0 * PI * sphere.radius * sphere.radius;
-        precise float cosine = dot(p - sphere.center, direction) / sphere.radius;
+        Sphere sphere = sphere_at(light.shape);
+        float area = 4.0 * PI * sphere.radius * sphere.radius;
+        float cosine = dot(p - sphere.center, direction) / sphere.radius;
         return Aspect(area, larger(cosine, 0.0), 1.0);  // light from inside a lamp is found by scattering alone
     }
     if (is_triangle_lamp(light.shape)) {
-        precise vec3 across = lamp_triangle(light.shape).across;
-        precise float area = length(across);
-        precise float cosine = abs(dot(across, direction)) / area;
+        vec3 across = lamp_triangle(light.shape).across;
+        float area = length(across);
+        float cosine = abs(dot(across, direction)) / area;
         return Aspect(area, cosine, 0.5);
     }
     if (is_disk_lamp(light.shape)) {
-        precise Disk disk = disk_lamp(light.shape);
-        precise float area = PI * disk.radius * disk.radius;
-        precise float cosine = dot(disk.normal, direction);
+        Disk disk = disk_lamp(light.shape);
+        float area = PI * disk.radius * disk.radius;
+        float cosine = dot(disk.normal, direction);
         return Aspect(area, abs(cosine), share_of_side(index, cosine > 0.0));
     }
     if (is_quad_lamp(light.shape)) {
-        precise Quad quad = quad_lamp(light.shape);
-        precise float area = quad.width * quad.height;
-        precise float cosine = dot(quad.normal, direction);
+        Quad quad = quad_lamp(light.shape);
+        float area = quad.width * quad.height;
+        float cosine = dot(quad.normal, direction);
         return Aspect(area, abs(cosine), share_of_side(index, cosine > 0.0));
     }
     return Aspect(1.0, 0.0, 1.0);
@@ -188,14 +188,14 @@ Aspect aspect_of(int index, vec3 p, vec3 direction) {
 float pdf_emission(int index, vec3 p, vec3 direction, int certain) {
     if (SKY_SENDS) return pdf_from_sky(p, direction, certain);
     if (HAS_SUN && index == SUN_LIGHT) return pdf_from_sun(p, direction, certain);
-    precise Aspect aspect = aspect_of(index, p, direction);
+    Aspect aspect = aspect_of(index, p, direction);
     if (aspect.by_cosine == 1.0 && aspect.cosine == 0.0) return 0.0;
-    precise float by_angle = aspect.by_cosine;
+    float by_angle = aspect.by_cosine;
     if (is_aimed()) {
-        precise float aimed = frame.aimed * PI * pdf_aimed(p, direction, certain);
+        float aimed = frame.aimed * PI * pdf_aimed(p, direction, certain);
         by_angle = (1.0 - frame.aimed) * by_angle + aimed / larger(aspect.cosine, LEAST_COSINE);
     }
-    precise float pdf = cluster_at(index).probability * by_angle / aspect.area;
+    float pdf = cluster_at(index).probability * by_angle / aspect.area;
     if (HAS_SUN) pdf *= 1.0 - frame.from_sun;
     return pdf;
 }

@@ -17,10 +17,10 @@ struct SkyPatch {
 };
 
 SkyPlace sky_place(vec3 direction) {
-    precise float turns = turns_of(direction) + frame.background_turn;
-    precise vec2 place = vec2(turns, descent_of(direction)) * vec2(environment_size()) - 0.5;
-    precise vec2 corner = floor(place);
-    precise vec2 share = place - corner;
+    float turns = turns_of(direction) + frame.background_turn;
+    vec2 place = vec2(turns, descent_of(direction)) * vec2(environment_size()) - 0.5;
+    vec2 corner = floor(place);
+    vec2 share = place - corner;
     return SkyPlace(ivec2(corner), share);
 }
 
@@ -28,37 +28,37 @@ SkyPatch sky_patch(ivec2 corner) {
     ivec2 size = environment_size();
     ivec2 columns = (ivec2(corner.x, corner.x + 1) + size.x) % size.x;
     ivec2 rows = clamp(ivec2(corner.y, corner.y + 1), 0, size.y - 1);
-    precise vec3 left_above = environment_pixel(columns.x, rows.x);
-    precise vec3 right_above = environment_pixel(columns.y, rows.x);
-    precise vec3 left_below = environment_pixel(columns.x, rows.y);
-    precise vec3 right_below = environment_pixel(columns.y, rows.y);
+    vec3 left_above = environment_pixel(columns.x, rows.x);
+    vec3 right_above = environment_pixel(columns.y, rows.x);
+    vec3 left_below = environment_pixel(columns.x, rows.y);
+    vec3 right_below = environment_pixel(columns.y, rows.y);
     return SkyPatch(left_above, right_above, left_below, right_below);
 }
 
 vec3 radiance_between(SkyPatch around, vec2 share) {
-    precise vec3 above = around.left_above + share.x * (around.right_above - around.left_above);
-    precise vec3 below = around.left_below + share.x * (around.right_below - around.left_below);
-    precise vec3 radiance = above + share.y * (below - above);
+    vec3 above = around.left_above + share.x * (around.right_above - around.left_above);
+    vec3 below = around.left_below + share.x * (around.right_below - around.left_below);
+    vec3 radiance = above + share.y * (below - above);
     return radiance;
 }
 
 vec3 environment(vec3 direction) {
-    precise SkyPlace place = sky_place(direction);
+    SkyPlace place = sky_place(direction);
     return radiance_between(sky_patch(place.corner), place.share);
 }
 
 vec3 background(vec3 direction) {
     if (HAS_ENVIRONMENT) {
-        precise vec3 pictured = frame.background_top * environment(direction);
+        vec3 pictured = frame.background_top * environment(direction);
         return pictured;
     }
     if (HAS_HORIZON) {
-        precise vec3 pole = direction.y < 0.0 ? frame.background_bottom : frame.background_top;
-        precise vec3 mixed = frame.background_horizon + abs(direction.y) * (pole - frame.background_horizon);
+        vec3 pole = direction.y < 0.0 ? frame.background_bottom : frame.background_top;
+        vec3 mixed = frame.background_horizon + abs(direction.y) * (pole - frame.background_horizon);
         return mixed;
     }
-    precise float t = 0.5 * (direction.y + 1.0);
-    precise vec3 radiance = frame.background_bottom + t * (frame.background_top - frame.background_bottom);
+    float t = 0.5 * (direction.y + 1.0);
+    vec3 radiance = frame.background_bottom + t * (frame.background_top - frame.background_bottom);
     return radiance;
 }
 
@@ -67,14 +67,14 @@ vec3 background(vec3 direction) {
 // of two clamped cosines at an angle a: 2/3 (sin a + (PI - a) cos a).
 vec3 unhidden_sky(vec3 normal) {
     if (HAS_ENVIRONMENT) return vec3(0.0);  // the classic models leave it out
-    precise vec3 two_thirds_up = 2.0 / 3.0 * normal;
+    vec3 two_thirds_up = 2.0 / 3.0 * normal;
     if (!HAS_HORIZON) return background(two_thirds_up);
-    precise float sine = sqrt(normal.x * normal.x + normal.z * normal.z);
-    precise float angle = angle_of(sine, normal.y);
-    precise float above = 2.0 / (3.0 * PI) * (sine + (PI - angle) * normal.y);
-    precise float below = 2.0 / (3.0 * PI) * (sine - angle * normal.y);
-    precise vec3 rise = frame.background_top - frame.background_horizon;
-    precise vec3 fall = frame.background_bottom - frame.background_horizon;
-    precise vec3 mean = frame.background_horizon + above * rise + below * fall;
+    float sine = sqrt(normal.x * normal.x + normal.z * normal.z);
+    float angle = angle_of(sine, normal.y);
+    float above = 2.0 / (3.0 * PI) * (sine + (PI - angle) * normal.y);
+    float below = 2.0 / (3.0 * PI) * (sine - angle * normal.y);
+    vec3 rise = frame.background_top - frame.background_horizon;
+    vec3 fall = frame.background_bottom - frame.background_horizon;
+    vec3 mean = frame.background_horizon + above * rise + below * fall;
     return mean;
 }

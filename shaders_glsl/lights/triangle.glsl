@@ -10,30 +10,30 @@ struct LampTriangle {
 };
 
 LampTriangle lamp_triangle(int shape) {
-    precise Triangle triangle = triangle_of(shape);
-    precise vec3 a = corner_at(triangle.corners.x).position;
-    precise vec3 edge_b = corner_at(triangle.corners.y).position - a;
-    precise vec3 edge_c = corner_at(triangle.corners.z).position - a;
-    precise vec3 across = 0.5 * cross(edge_b, edge_c);
+    Triangle triangle = triangle_of(shape);
+    vec3 a = corner_at(triangle.corners.x).position;
+    vec3 edge_b = corner_at(triangle.corners.y).position - a;
+    vec3 edge_c = corner_at(triangle.corners.z).position - a;
+    vec3 across = 0.5 * cross(edge_b, edge_c);
     return LampTriangle(a + frame.tree_center, edge_b, edge_c, across, mesh_of(triangle));
 }
 
 bool is_beside(LampTriangle triangle, vec3 origin) {
-    precise float z = dot(triangle.a - origin, triangle.across);
+    float z = dot(triangle.a - origin, triangle.across);
     return abs(z) > 0.0;
 }
 
 // A point as shares of the two edges, even in area.
 vec2 sample_triangle(vec2 u) {
-    precise float root = sqrt(u.x);
-    precise vec2 shares = vec2(root * (1.0 - u.y), root * u.y);
+    float root = sqrt(u.x);
+    vec2 shares = vec2(root * (1.0 - u.y), root * u.y);
     return shares;
 }
 
 // Points are even in area, in every method.
 float pdf_triangle(LampTriangle triangle, Ray ray, float distance) {
-    precise float facing = abs(dot(ray.direction, triangle.across));  // the area that it shows
+    float facing = abs(dot(ray.direction, triangle.across));  // the area that it shows
     if (facing == 0.0) return 0.0;
-    precise float pdf = distance / facing * distance;
+    float pdf = distance / facing * distance;
     return pdf;
 }

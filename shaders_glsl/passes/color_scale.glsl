@@ -4,8 +4,8 @@ const int COLORS = 11;
 
 // The colour at a share of the scale, from 0 to 1; colours are sRGB.
 vec3 color_at(vec3 colors[COLORS], float share) {
-    precise float at = clamp(share, 0.0, 1.0) * float(COLORS - 1);
+    float at = clamp(share, 0.0, 1.0) * float(COLORS - 1);
     int below = min(int(at), COLORS - 2);
-    precise vec3 color = colors[below] + (at - float(below)) * (colors[below + 1] - colors[below]);
+    vec3 color = colors[below] + (at - float(below)) * (colors[below + 1] - colors[below]);
     return color;
 }

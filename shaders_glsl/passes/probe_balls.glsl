@@ -11,6 +11,6 @@ vec4 probe_place_at(ivec2 texel) { return texelFetch(probe_places, texel, 0); }
 #include "probes/maps.glsl"
 
 vec3 middle_of_ball(int probe) {
-    precise vec3 middle = middle_of_cell(probe) + place_of_probe(probe).xyz;
+    vec3 middle = middle_of_cell(probe) + place_of_probe(probe).xyz;
     return middle;
 }

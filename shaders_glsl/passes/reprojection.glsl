@@ -20,11 +20,11 @@ vec3 seen_before(vec4 surface) {
 
 // Its place in the view before; NO_PLACE behind the eye of that view and outside its picture.
 vec2 place_before(vec3 seen) {
-    precise float depth = dot(seen, before_forward);
+    float depth = dot(seen, before_forward);
     if (depth <= 0.0) return NO_PLACE;
-    precise vec2 at = vec2(dot(seen, before_right) / dot(before_right, before_right),
+    vec2 at = vec2(dot(seen, before_right) / dot(before_right, before_right),
                            dot(seen, before_up) / dot(before_up, before_up)) / depth;
-    precise vec2 place = vec2(0.5 + 0.5 * at.x, 0.5 - 0.5 * at.y) * before_frame - before_origin;
+    vec2 place = vec2(0.5 + 0.5 * at.x, 0.5 - 0.5 * at.y) * before_frame - before_origin;
     vec2 size = vec2(textureSize(before_position, 0));
     bool is_inside = all(greaterThanEqual(place, vec2(0.0))) && all(lessThan(place, size));
     return is_inside ? place : NO_PLACE;
@@ -33,7 +33,7 @@ vec2 place_before(vec3 seen) {
 // Whether a surface of the view before is of the same object and lies in the plane of the surface `seen`.
 bool is_there(vec4 there, float object, vec3 seen, vec3 facing) {
     if (there.w != object || object < 0.0) return false;
-    precise float off = abs(dot(there.xyz - seen, facing));
+    float off = abs(dot(there.xyz - seen, facing));
     return off <= SAME_PLACE * length(seen);
 }
 
@@ -44,7 +44,7 @@ bool holds(ivec2 texel, float object, vec3 seen, vec4 facing) {
     ivec2 size = textureSize(before_position, 0);
     if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, size))) return false;
     if (!is_there(texelFetch(before_position, texel, 0), object, seen, facing.xyz)) return false;
-    precise vec4 other = texelFetch(before_normal, texel, 0);
+    vec4 other = texelFetch(before_normal, texel, 0);
     if (has_flag(other, LAMP_EDGE) || (has_flag(other, EDGE) && !has_flag(facing, EDGE))) return false;
     return dot(other.xyz, facing.xyz) >= SAME_NORMAL;
 }
@@ -53,11 +53,11 @@ bool holds(ivec2 texel, float object, vec3 seen, vec4 facing) {
 ivec2 texel_at(vec2 place, float object, vec3 seen, vec4 facing) {
     ivec2 corner = ivec2(floor(place - 0.5));
     ivec2 nearest = NO_TEXEL;
-    precise float least = 3.0;  // squares of distances are 2 at most
+    float least = 3.0;  // squares of distances are 2 at most
     for (int n = 0; n < 4; n += 1) {
         ivec2 texel = corner + ivec2(n & 1, n >> 1);
-        precise vec2 off = place - vec2(texel) - 0.5;
-        precise float distance = dot(off, off);
+        vec2 off = place - vec2(texel) - 0.5;
+        float distance = dot(off, off);
         if (distance < least && holds(texel, object, seen, facing)) {
             nearest = texel;
             least = distance;
@@ -68,9 +68,9 @@ ivec2 texel_at(vec2 place, float object, vec3 seen, vec4 facing) {
 
 // Weights of Catmull and Rom's spline for texels at -1, 0, 1, 2 from one at `t` of the way from 0 to 1.
 vec4 spline_weights(float t) {
-    precise float t2 = t * t;
-    precise float t3 = t2 * t;
-    precise vec4 doubled = vec4(2.0 * t2 - t3 - t, 3.0 * t3 - 5.0 * t2 + 2.0,
+    float t2 = t * t;
+    float t3 = t2 * t;
+    vec4 doubled = vec4(2.0 * t2 - t3 - t, 3.0 * t3 - 5.0 * t2 + 2.0,
                                 4.0 * t2 - 3.0 * t3 + t, t3 - t2);
     return 0.5 * doubled;
 }
@@ -78,9 +78,9 @@ vec4 spline_weights(float t) {
 // The spline's value between texels around a place. All of them have been found to show the same surface.
 vec4 splined(sampler2D picture, ivec2 corner, vec2 share) {
     ivec2 last = textureSize(picture, 0) - 1;
-    precise vec4 across = spline_weights(share.x);
-    precise vec4 down = spline_weights(share.y);
-    precise vec4 sum = vec4(0.0);
+    vec4 across = spline_weights(share.x);
+    vec4 down = spline_weights(share.y);
+    vec4 sum = vec4(0.0);
     for (int j = 0; j < 4; j += 1) {
         for (int i = 0; i < 4; i += 1) {
             ivec2 texel = clamp(corner + ivec2(i - 1, j - 1), ivec2(0), last);
@@ -105,24 +105,24 @@ bool are_around(ivec2 corner, float object, vec3 seen, vec4 facing) {
 // It is exact in the middle of a texel. Between texels that all show the surface it follows a spline; otherwise it is
 // the weighted mean of the nearest four texels that show it.
 vec4 history_at(sampler2D history, vec2 place, float object, vec3 seen, vec4 facing) {
-    precise vec2 from_middle = place - 0.5;
+    vec2 from_middle = place - 0.5;
     ivec2 nearest = ivec2(floor(place));
-    precise vec2 off = abs(place - vec2(nearest) - 0.5);
+    vec2 off = abs(place - vec2(nearest) - 0.5);
     if (all(lessThanEqual(off, vec2(WHOLE_PIXEL)))) {
         return holds(nearest, object, seen, facing) ? texelFetch(history, nearest, 0) : vec4(0.0);
     }
     ivec2 corner = ivec2(floor(from_middle));
-    precise vec2 share = from_middle - vec2(corner);
-    precise vec3 sum = vec3(0.0);
-    precise float total = 0.0;
-    precise float rarity = 0.0;  // mean of 1 / samples
+    vec2 share = from_middle - vec2(corner);
+    vec3 sum = vec3(0.0);
+    float total = 0.0;
+    float rarity = 0.0;  // mean of 1 / samples
     int count = 0;
     for (int n = 0; n < 4; n += 1) {
         ivec2 side = ivec2(n & 1, n >> 1);
         if (!holds(corner + side, object, seen, facing)) continue;
-        precise vec2 parts = mix(1.0 - share, share, vec2(side));
-        precise float weight = parts.x * parts.y;
-        precise vec4 there = texelFetch(history, corner + side, 0);
+        vec2 parts = mix(1.0 - share, share, vec2(side));
+        float weight = parts.x * parts.y;
+        vec4 there = texelFetch(history, corner + side, 0);
         if (there.a <= 0.0) continue;
         sum += weight * there.rgb;
         rarity += weight / there.a;
@@ -130,7 +130,7 @@ vec4 history_at(sampler2D history, vec2 place, float object, vec3 seen, vec4 fac
         count += 1;
     }
     if (total <= LEAST_SHARE) return vec4(0.0);
-    precise float samples = total / rarity;
+    float samples = total / rarity;
     if (count == 4 && are_around(corner, object, seen, facing)) return vec4(splined(history, corner, share).rgb, samples);
     return vec4(sum / total, samples);
 }

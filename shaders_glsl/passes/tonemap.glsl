@@ -10,7 +10,7 @@ const float TONEMAP_LIMIT = 1e9; // every curve reaches its limit to 8 bits far 
 
 // The sRGB transfer function of IEC 61966-2-1, piecewise; 0..1 to 0..1.
 vec3 encode_srgb(vec3 linear) {
-    precise vec3 curved = 1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055;
+    vec3 curved = 1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055;
     return mix(curved, 12.92 * linear, lessThanEqual(linear, vec3(0.0031308)));
 }
 
@@ -25,8 +25,8 @@ const mat3 ACES_OUTPUT = mat3( // ODT saturation -> XYZ -> D65 -> linear sRGB; b
 
 // ACES RRT + sRGB ODT, as fitted by Stephen Hill.
 vec3 tone_aces(vec3 color) {
-    precise vec3 v = ACES_INPUT * color;
-    precise vec3 fitted = (v * (v + 0.0245786) - 0.000090537) / (v * (0.983729 * v + 0.4329510) + 0.238081);
+    vec3 v = ACES_INPUT * color;
+    vec3 fitted = (v * (v + 0.0245786) - 0.000090537) / (v * (0.983729 * v + 0.4329510) + 0.238081);
     return clamp(ACES_OUTPUT * fitted, 0.0, 1.0);
 }
 
@@ -43,9 +43,9 @@ const float AGX_LOG2_MAX = 4.026069;  // 6.5 stops above
 
 // AgX base look, as fitted by Benjamin Wrensch: it is for a display with exponent 2.2, which is undone here.
 vec3 tone_agx(vec3 color) {
-    precise vec3 exponent = log2(max(AGX_INSET * color, vec3(exp2(AGX_LOG2_MIN))));
-    precise vec3 x = clamp((exponent - AGX_LOG2_MIN) / (AGX_LOG2_MAX - AGX_LOG2_MIN), 0.0, 1.0);
-    precise vec3 y = ((((15.5 * x - 40.14) * x + 31.96) * x - 6.868) * x + 0.4298) * x + 0.1191;
+    vec3 exponent = log2(max(AGX_INSET * color, vec3(exp2(AGX_LOG2_MIN))));
+    vec3 x = clamp((exponent - AGX_LOG2_MIN) / (AGX_LOG2_MAX - AGX_LOG2_MIN), 0.0, 1.0);
+    vec3 y = ((((15.5 * x - 40.14) * x + 31.96) * x - 6.868) * x + 0.4298) * x + 0.1191;
     return pow(clamp(AGX_OUTSET * (y * x - 0.00232), 0.0, 1.0), vec3(2.2));
 }
 
@@ -55,19 +55,19 @@ const float NEUTRAL_DESATURATION = 0.15;
 
 // Khronos PBR Neutral: the identity less an offset, up to a peak; then a shoulder that fades to white.
 vec3 tone_neutral(vec3 color) {
-    precise float darkest = min(min(color.r, min(color.g, color.b)), 2.0 * NEUTRAL_F90);
-    precise vec3 offset = vec3(darkest - darkest * darkest / (4.0 * NEUTRAL_F90));
+    float darkest = min(min(color.r, min(color.g, color.b)), 2.0 * NEUTRAL_F90);
+    vec3 offset = vec3(darkest - darkest * darkest / (4.0 * NEUTRAL_F90));
     color = max(color - offset, 0.0);
-    precise float peak = max(max(color.r, max(color.g, color.b)), NEUTRAL_SHOULDER);
-    precise float room = 1.0 - NEUTRAL_SHOULDER;
-    precise float new_peak = 1.0 - room * room / (peak - NEUTRAL_SHOULDER + room);
-    precise float kept = 1.0 / (NEUTRAL_DESATURATION * (peak - new_peak) + 1.0);
+    float peak = max(max(color.r, max(color.g, color.b)), NEUTRAL_SHOULDER);
+    float room = 1.0 - NEUTRAL_SHOULDER;
+    float new_peak = 1.0 - room * room / (peak - NEUTRAL_SHOULDER + room);
+    float kept = 1.0 / (NEUTRAL_DESATURATION * (peak - new_peak) + 1.0);
     return color * (new_peak / peak) * kept + vec3(new_peak * (1.0 - kept));
 }
 
 // Radiance times 2^exposure_ev, through the tone curve, sRGB-encoded: 0..1, ready for 8 bits.
 vec3 expose_and_encode(vec3 radiance, float exposure_ev, int tonemap) {
-    precise vec3 color = clamp(radiance * exp2(exposure_ev), 0.0, TONEMAP_LIMIT);
+    vec3 color = clamp(radiance * exp2(exposure_ev), 0.0, TONEMAP_LIMIT);
     if (tonemap == TONEMAP_ACES) {
         color = tone_aces(color);
     } else if (tonemap == TONEMAP_AGX) {

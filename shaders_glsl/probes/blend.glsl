@@ -5,11 +5,11 @@ const float LONGEST_DISTANCE = 1.5;  // of a cell's diagonal: longer distances a
 
 // Weight of a distance: cos^50, so that a texel takes distances only from its own direction.
 float sharpened(float cosine) {
-    precise float x2 = cosine * cosine;
-    precise float x4 = x2 * x2;
-    precise float x8 = x4 * x4;
-    precise float x16 = x8 * x8;
-    precise float weight = x16 * x16 * x16 * x2;
+    float x2 = cosine * cosine;
+    float x4 = x2 * x2;
+    float x8 = x4 * x4;
+    float x16 = x8 * x8;
+    float weight = x16 * x16 * x16 * x2;
     return weight;
 }
 
@@ -19,7 +19,7 @@ struct Blend {
     float weight;
 };
 
-void add_ray(precise inout Blend blend, vec3 value, float weight) {
+void add_ray(inout Blend blend, vec3 value, float weight) {
     if (weight < LEAST_COSINE) return;
     blend.sum += weight * value;
     blend.weight += weight;
@@ -28,7 +28,7 @@ void add_ray(precise inout Blend blend, vec3 value, float weight) {
 // Mixes the mean of the rays with the value from before; without new rays that value stays.
 vec3 blended(Blend blend, vec3 before, float kept) {
     if (blend.weight == 0.0) return before;
-    precise vec3 mean = blend.sum / blend.weight;
-    precise vec3 next = mean + kept * (before - mean);
+    vec3 mean = blend.sum / blend.weight;
+    vec3 next = mean + kept * (before - mean);
     return next;
 }

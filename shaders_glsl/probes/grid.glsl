@@ -17,22 +17,22 @@ ivec3 cell_of_probe(int probe) {
 
 // The place of a probe that was not pushed.
 vec3 middle_of_cell(int probe) {
-    precise vec3 middle = frame.probe_first + vec3(cell_of_probe(probe)) * frame.probe_cell;
+    vec3 middle = frame.probe_first + vec3(cell_of_probe(probe)) * frame.probe_cell;
     return middle;
 }
 
 // A place relative to the first probe, in cells.
 vec3 place_in_grid(vec3 position) {
-    precise vec3 place = (position - frame.probe_first) / frame.probe_cell;
+    vec3 place = (position - frame.probe_first) / frame.probe_cell;
     return place;
 }
 
 // The share of light at a place that probes give: 1 in their cells, falling to 0 over one cell beyond.
 float share_of_probes(vec3 position) {
-    precise vec3 place = place_in_grid(position);
-    precise vec3 beyond = max(-0.5 - place, place + 0.5 - vec3(frame.probe_counts));
-    precise float farthest = max(beyond.x, max(beyond.y, beyond.z));
-    precise float share = clamp(1.0 - farthest, 0.0, 1.0);
+    vec3 place = place_in_grid(position);
+    vec3 beyond = max(-0.5 - place, place + 0.5 - vec3(frame.probe_counts));
+    float farthest = max(beyond.x, max(beyond.y, beyond.z));
+    float share = clamp(1.0 - farthest, 0.0, 1.0);
     return share;
 }
 

@@ -10,34 +10,34 @@ struct MapPlace {
 };
 
 MapPlace place_in_map(int probe, int side, vec3 direction) {
-    precise vec2 place = (to_octahedron(direction) * 0.5 + 0.5) * float(side) + 0.5;
-    precise vec2 first = clamp(floor(place), 0.0, float(side));
-    precise vec2 beyond = place - first;
+    vec2 place = (to_octahedron(direction) * 0.5 + 0.5) * float(side) + 0.5;
+    vec2 first = clamp(floor(place), 0.0, float(side));
+    vec2 beyond = place - first;
     return MapPlace(corner_of_map(probe, side) + ivec2(first), beyond);
 }
 
 vec4 between_texels(vec4 a, vec4 b, vec4 c, vec4 d, vec2 beyond) {
-    precise vec4 low = a + beyond.x * (b - a);
-    precise vec4 high = c + beyond.x * (d - c);
-    precise vec4 value = low + beyond.y * (high - low);
+    vec4 low = a + beyond.x * (b - a);
+    vec4 high = c + beyond.x * (d - c);
+    vec4 value = low + beyond.y * (high - low);
     return value;
 }
 
 vec3 light_at_probe(int probe, vec3 normal) {
-    precise MapPlace at = place_in_map(probe, LIGHT_SIDE, normal);
-    precise vec4 a = probe_light_at(at.texel);
-    precise vec4 b = probe_light_at(at.texel + ivec2(1, 0));
-    precise vec4 c = probe_light_at(at.texel + ivec2(0, 1));
-    precise vec4 d = probe_light_at(at.texel + ivec2(1, 1));
+    MapPlace at = place_in_map(probe, LIGHT_SIDE, normal);
+    vec4 a = probe_light_at(at.texel);
+    vec4 b = probe_light_at(at.texel + ivec2(1, 0));
+    vec4 c = probe_light_at(at.texel + ivec2(0, 1));
+    vec4 d = probe_light_at(at.texel + ivec2(1, 1));
     return between_texels(a, b, c, d, at.beyond).rgb;
 }
 
 vec2 distances_at_probe(int probe, vec3 direction) {
-    precise MapPlace at = place_in_map(probe, DISTANCE_SIDE, direction);
-    precise vec4 a = probe_distances_at(at.texel);
-    precise vec4 b = probe_distances_at(at.texel + ivec2(1, 0));
-    precise vec4 c = probe_distances_at(at.texel + ivec2(0, 1));
-    precise vec4 d = probe_distances_at(at.texel + ivec2(1, 1));
+    MapPlace at = place_in_map(probe, DISTANCE_SIDE, direction);
+    vec4 a = probe_distances_at(at.texel);
+    vec4 b = probe_distances_at(at.texel + ivec2(1, 0));
+    vec4 c = probe_distances_at(at.texel + ivec2(0, 1));
+    vec4 d = probe_distances_at(at.texel + ivec2(1, 1));
     return between_texels(a, b, c, d, at.beyond).rg;
 }
 

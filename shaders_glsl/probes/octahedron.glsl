@@ -7,14 +7,14 @@ vec2 signs_of(vec2 v) {
 
 // The place of a direction of any length but 0 on the square: each coordinate from -1 to 1.
 vec2 to_octahedron(vec3 direction) {
-    precise vec2 place = direction.xy / (abs(direction.x) + abs(direction.y) + abs(direction.z));
+    vec2 place = direction.xy / (abs(direction.x) + abs(direction.y) + abs(direction.z));
     if (direction.z >= 0.0) return place;
-    precise vec2 folded = (1.0 - abs(place.yx)) * signs_of(place);
+    vec2 folded = (1.0 - abs(place.yx)) * signs_of(place);
     return folded;
 }
 
 vec3 from_octahedron(vec2 place) {
-    precise vec3 direction = vec3(place, 1.0 - abs(place.x) - abs(place.y));
+    vec3 direction = vec3(place, 1.0 - abs(place.x) - abs(place.y));
     if (direction.z < 0.0) direction.xy = (1.0 - abs(place.yx)) * signs_of(place);
     return normalized(direction);
 }
@@ -29,6 +29,6 @@ ivec2 inner_texel(ivec2 texel, int side) {
 
 // The middle of an inner texel.
 vec3 direction_of_texel(ivec2 texel, int side) {
-    precise vec2 place = (vec2(texel) - 0.5) / float(side) * 2.0 - 1.0;
+    vec2 place = (vec2(texel) - 0.5) / float(side) * 2.0 - 1.0;
     return from_octahedron(place);
 }

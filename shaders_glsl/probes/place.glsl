@@ -22,10 +22,10 @@ bool is_nearer(vec3 way, vec3 known) {
 }
 
 // Adds one ray. `distance`: as the rays of probes report it, below 0 for a wrong face.
-void look(precise inout Surroundings around, vec3 direction, float distance) {
+void look(inout Surroundings around, vec3 direction, float distance) {
     if (distance == 0.0 || distance >= FAR) return;
     around.rays += 1;
-    precise vec3 way = direction * (distance < 0.0 ? distance / WRONG_FACE : distance);
+    vec3 way = direction * (distance < 0.0 ? distance / WRONG_FACE : distance);
     if (distance < 0.0) {
         around.wrong += 1;
         if (is_nearer(way, around.nearest_wrong)) around.nearest_wrong = way;
@@ -40,15 +40,15 @@ bool is_in_solid(Surroundings around) {
 
 // The next offset of a probe from the middle of its cell: through the nearest wrong face, or away from a close surface.
 vec3 pushed(Surroundings around, vec3 offset) {
-    precise float near = NEAR_SURFACE * frame.probe_edge;
-    precise vec3 next = offset;
+    float near = NEAR_SURFACE * frame.probe_edge;
+    vec3 next = offset;
     if (is_in_solid(around)) {
         next += around.nearest_wrong + near * normalized(around.nearest_wrong);
     } else if (around.nearest_right != vec3(0.0)) {
-        precise float distance = length(around.nearest_right);
+        float distance = length(around.nearest_right);
         if (distance < near) next -= (near - distance) / distance * around.nearest_right;
     }
-    precise vec3 most = MOST_PUSHED * frame.probe_cell;
+    vec3 most = MOST_PUSHED * frame.probe_cell;
     if (any(greaterThan(abs(next), most))) return offset;
     return next;
 }

@@ -16,23 +16,23 @@ const float LEAST_NEARNESS = 0.001;
 // square.
 float chance_seen(vec2 moments, float distance) {
     if (distance <= moments.x) return 1.0;
-    precise float variance = abs(moments.x * moments.x - moments.y);
-    precise float beyond = distance - moments.x;
-    precise float chance = variance / (variance + beyond * beyond);
-    precise float seen = max(chance * chance * chance, LEAST_SEEN);
+    float variance = abs(moments.x * moments.x - moments.y);
+    float beyond = distance - moments.x;
+    float chance = variance / (variance + beyond * beyond);
+    float seen = max(chance * chance * chance, LEAST_SEEN);
     return seen;
 }
 
 // Weight of a probe that lies in the unit direction `to_probe` from a surface.
 float weight_of_side(vec3 normal, vec3 to_probe) {
-    precise float before = (dot(to_probe, normal) + 1.0) / 2.0;
-    precise float weight = before * before + 0.2;
+    float before = (dot(to_probe, normal) + 1.0) / 2.0;
+    float weight = before * before + 0.2;
     return weight;
 }
 
 // Makes small weights smaller, but never 0.
 float crushed(float weight) {
-    precise float kept = max(weight, LEAST_WEIGHT);
+    float kept = max(weight, LEAST_WEIGHT);
     if (kept < SMALL_WEIGHT) kept *= kept * kept / (SMALL_WEIGHT * SMALL_WEIGHT);
     return kept;
 }
@@ -40,8 +40,8 @@ float crushed(float weight) {
 // The place before a surface where its light is looked up; `wo`: the unit direction in which the light leaves.
 vec3 biased_place(vec3 position, vec3 normal, vec3 wo) {
     if (WITHOUT_BIAS) return position;
-    precise float length = BIAS * frame.probe_edge;
-    precise vec3 place = position + length * (BIAS_TO_NORMAL * normal + (1.0 - BIAS_TO_NORMAL) * wo);
+    float length = BIAS * frame.probe_edge;
+    vec3 place = position + length * (BIAS_TO_NORMAL * normal + (1.0 - BIAS_TO_NORMAL) * wo);
     return place;
 }
 
@@ -53,14 +53,14 @@ struct ProbeLight {
 
 // Weight of a probe for the light at a point `position`, looked up at `place`.
 float weight_of_probe(int probe, vec3 position, vec3 place, vec3 normal) {
-    precise vec4 offset = place_of_probe(probe);
+    vec4 offset = place_of_probe(probe);
     if (offset.a == 0.0) return 0.0;
-    precise vec3 stand = middle_of_cell(probe) + offset.xyz;
-    precise vec3 to_probe = stand - position;
-    precise float weight = 1.0;
+    vec3 stand = middle_of_cell(probe) + offset.xyz;
+    vec3 to_probe = stand - position;
+    float weight = 1.0;
     if (dot(to_probe, to_probe) > 0.0) weight = weight_of_side(normal, normalized(to_probe));
-    precise vec3 from_probe = place - stand;
-    precise float distance = length(from_probe);
+    vec3 from_probe = place - stand;
+    float distance = length(from_probe);
     if (!WITHOUT_VISIBILITY && distance > 0.0) {
         weight *= chance_seen(distances_at_probe(probe, from_probe), distance);
     }
@@ -70,23 +70,23 @@ float weight_of_probe(int probe, vec3 position, vec3 place, vec3 normal) {
 // Weight of one of eight probes by trilinear interpolation; `beyond`: how far the point lies from the first probe
 // towards the last along each axis, 0 to 1.
 float nearness(ivec3 corner, vec3 beyond) {
-    precise vec3 shares = vec3(0.0);
+    vec3 shares = vec3(0.0);
     for (int i = 0; i < 3; i += 1) shares[i] = max(corner[i] == 1 ? beyond[i] : 1.0 - beyond[i], LEAST_NEARNESS);
-    precise float product = shares.x * shares.y * shares.z;
+    float product = shares.x * shares.y * shares.z;
     return product;
 }
 
 // Light of probes at a surface with a unit normal on the side of `wo`.
 ProbeLight light_of_probes(vec3 position, vec3 normal, vec3 wo) {
-    precise vec3 place = biased_place(position, normal, wo);
-    precise vec3 cells = place_in_grid(place);
+    vec3 place = biased_place(position, normal, wo);
+    vec3 cells = place_in_grid(place);
     ivec3 first = clamp(ivec3(floor(cells)), ivec3(0), frame.probe_counts - 2);
-    precise vec3 beyond = clamp(cells - vec3(first), 0.0, 1.0);
-    precise ProbeLight sum = ProbeLight(vec3(0.0), 0.0);
+    vec3 beyond = clamp(cells - vec3(first), 0.0, 1.0);
+    ProbeLight sum = ProbeLight(vec3(0.0), 0.0);
     for (int i = 0; i < 8; i += 1) {
         ivec3 corner = ivec3(i & 1, i >> 1 & 1, i >> 2);
         int probe = probe_at(first + corner);
-        precise float weight = weight_of_probe(probe, position, place, normal) * nearness(corner, beyond);
+        float weight = weight_of_probe(probe, position, place, normal) * nearness(corner, beyond);
         sum.weight += weight;
         sum.irradiance += weight * light_at_probe(probe, normal);
     }
@@ -97,20 +97,20 @@ ProbeLight light_of_probes(vec3 position, vec3 normal, vec3 wo) {
 // Adds indirect light of a matte surface from probes, which replaces the rest of the path. The path ends with the
 // segment that finds the direct light of this surface. Paths go on beyond the grid, and where no probe can be used.
 // Paths of a final gather also go on where they meet the first matte surface.
-void gather_from_probes(precise inout Path path, Vertex vertex, vec3 position, precise inout Sampler rng) {
+void gather_from_probes(inout Path path, Vertex vertex, vec3 position, inout Sampler rng) {
     if (!HAS_PROBES || vertex.material.kind != MATTE || path.depth + 2 > frame.bounces) return;
     if (!path.asking.is_due) {
         path.asking.is_due = true;
         return;
     }
-    precise float share = share_of_probes(position);
+    float share = share_of_probes(position);
     if (share < 1.0) {
         if (next_1d(rng) >= share) return;
     }
-    precise vec3 normal = vertex.frame[2];
-    precise ProbeLight found = light_of_probes(position, normal, -path.ray.direction);
+    vec3 normal = vertex.frame[2];
+    ProbeLight found = light_of_probes(position, normal, -path.ray.direction);
     if (found.weight == 0.0) return;
-    precise vec3 weight = path.scale * path.throughput * vertex.material.color / PI;
+    vec3 weight = path.scale * path.throughput * vertex.material.color / PI;
     gather(path, weight * found.irradiance, 0, path.depth + 2);
     path.asking.is_done = true;
 }

@@ -38,8 +38,8 @@ Reservoir held_reservoir;  // the reservoir that this sample keeps for the next 
 
 void start_resampling(Sampler rng) {
     if (!RESAMPLES) return;
-    precise vec3 none = vec3(0.0);
-    precise Resampling begun =
+    vec3 none = vec3(0.0);
+    Resampling begun =
         Resampling(BEFORE_FIRST, no_receiver(), none, empty_stream(), no_source(), none, sampler_beside(rng, 0));
     resampling = begun;
 }
@@ -54,7 +54,7 @@ bool begins_resampling(Path path, Material material) {
 void begin_resampling(Path path, Vertex vertex, Ray ray) {
     resampling.stage = SCATTERED;
     resampling.at = Receiver(ray.origin, vertex.frame[2], ray.origin_shape, ray.inward);
-    precise vec3 factor = path.scale * path.throughput * (vertex.material.color / PI);
+    vec3 factor = path.scale * path.throughput * (vertex.material.color / PI);
     resampling.factor = factor;
 }
 
@@ -65,19 +65,19 @@ void offer_source(Source source, float weight) {
 // Offers a point on a lamp, by its density per solid angle; `facing`: the true normal on the side of wo.
 void offer_lamp(LightSample light, vec3 facing) {
     if (light.pdf == 0.0) return;
-    precise float cosine = dot(light.ray.direction, resampling.at.normal);
+    float cosine = dot(light.ray.direction, resampling.at.normal);
     if (cosine <= 0.0 || dot(light.ray.direction, facing) <= 0.0) return;
     if (occluded(light.ray, light.distance, light.shape)) return;
-    precise Surface surface = surface_at(light.ray, Hit(light.distance, light.shape));
-    precise vec3 normal = dot(surface.normal, light.ray.direction) < 0.0 ? surface.normal : -surface.normal;
-    precise float share = power_heuristic(light.pdf, cosine / PI);
-    precise float weight = share * luminance(light.radiance) * (cosine / light.pdf);
+    Surface surface = surface_at(light.ray, Hit(light.distance, light.shape));
+    vec3 normal = dot(surface.normal, light.ray.direction) < 0.0 ? surface.normal : -surface.normal;
+    float share = power_heuristic(light.pdf, cosine / PI);
+    float weight = share * luminance(light.radiance) * (cosine / light.pdf);
     offer_source(Source(surface.position, normal, light.radiance, light.shape), weight);
 }
 
 // The surface that the scattered ray of the first matte surface meets, as a source without light.
 Source source_met(Path path, Surface surface) {
-    precise vec3 normal = true_normal(surface);
+    vec3 normal = true_normal(surface);
     if (dot(normal, path.ray.direction) > 0.0) normal = -normal;
     return Source(surface.position, normal, vec3(0.0), surface.shape);
 }
@@ -89,13 +89,13 @@ bool is_candidate(vec3 emission) {
 
 // Offers emission that scattering met. `share`: its weight against points sampled on lamps.
 void offer_met(Path path, Surface surface, vec3 emission, float share) {
-    precise Source source = source_met(path, surface);
+    Source source = source_met(path, surface);
     source.light = emission;
     offer_source(source, share * luminance(emission) * PI);
 }
 
 // From a second matte surface on, the path gathers the light of that surface alone.
-void meet_second(precise inout Path path, Surface surface, Material material) {
+void meet_second(inout Path path, Surface surface, Material material) {
     if (!RESAMPLES || resampling.stage != SCATTERED) return;
     resampling.stage = GATHERS_ALONE;
     if (material.kind != MATTE || path.depth == frame.bounces) return;
@@ -111,17 +111,17 @@ void meet_second(precise inout Path path, Surface surface, Material material) {
 bool are_alike(Receiver one, Receiver other) {
     if (one.shape == NO_SHAPE || other.shape == NO_SHAPE) return false;
     if (object_number(one.shape) != object_number(other.shape) || one.is_within != other.is_within) return false;
-    precise float near = length(one.position);
-    precise float far = length(other.position);
+    float near = length(one.position);
+    float far = length(other.position);
     return dot(one.normal, other.normal) > LEAST_ALIKE && abs(near - far) < MOST_DEEPER * max(near, far);
 }
 
 // Whether something stands between a surface and a source before it. By rounding, the object of the source may be met
 // next to the source; that hides nothing.
 bool is_hidden(Receiver at, Source source) {
-    precise vec3 away = source.position - at.position;
-    precise float distance = length(away);
-    precise Hit hit = closest_hit(Ray(at.position, away / distance, at.shape, at.is_within));
+    vec3 away = source.position - at.position;
+    float distance = length(away);
+    Hit hit = closest_hit(Ray(at.position, away / distance, at.shape, at.is_within));
     if (hit.shape == NO_SHAPE || hit.distance >= distance) return false;
     bool is_there = object_number(hit.shape) == object_number(source.shape);
     return !is_there || hit.distance < distance * (1.0 - NEXT_TO_SOURCE);
@@ -131,9 +131,9 @@ bool is_hidden(Receiver at, Source source) {
 ivec2 pixel_of_stream(ivec2 place, int stream) {
     if (REUSES_OWN && stream == 1) return place;
     int most = max(int(float(frame.size.y) * NEAR_PART), 1);
-    precise Sampler rng = sampler_beside(resampling.rng, stream);
-    precise float x = next_independent(rng);
-    precise float y = next_independent(rng);
+    Sampler rng = sampler_beside(resampling.rng, stream);
+    float x = next_independent(rng);
+    float y = next_independent(rng);
     return place + ivec2(floor(vec2(x, y) * float(2 * most + 1))) - most;
 }
 
@@ -141,7 +141,7 @@ ivec2 pixel_of_stream(ivec2 place, int stream) {
 Reservoir reservoir_of_stream(Receiver at, ivec2 place, int stream) {
     ivec2 pixel = pixel_of_stream(place, stream);
     if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, frame.size))) return empty_reservoir();
-    precise Reservoir found = reservoir_of_pixel(pixel);
+    Reservoir found = reservoir_of_pixel(pixel);
     if (!are_alike(at, found.at)) return empty_reservoir();
     found.count = min(found.count, float(MOST_COUNTED));
     return found;
@@ -152,7 +152,7 @@ Reservoir reservoir_of_stream(Receiver at, ivec2 place, int stream) {
 // stream does not see the point.
 float share_of_stream(float count, float there, float here) {
     if (there == 0.0) return 0.0;
-    precise float share = 1.0 / (1.0 + here / (count * there));
+    float share = 1.0 / (1.0 + here / (count * there));
     return share;
 }
 
@@ -162,29 +162,29 @@ float share_of_stream(float count, float there, float here) {
 // has the rest, m = sum_i(M_i / M (1 - share_i)). So no weight is far above the weights that it is made of. A stream
 // that does not see the own point has no share of it. A ray tests this; the biased form sends none.
 Reservoir merged(Reservoir own, ivec2 place) {
-    precise float count = 0.0;
+    float count = 0.0;
     for (int i = 1; i < STREAMS; i += 1) count += reservoir_of_stream(own.at, place, i).count;
     if (count == 0.0) return own;
-    precise float here = target(own.at, own.kept);
-    precise float left = 0.0;  // m of the own point
-    precise Stream stream = empty_stream();
+    float here = target(own.at, own.kept);
+    float left = 0.0;  // m of the own point
+    Stream stream = empty_stream();
     for (int i = 1; i < STREAMS; i += 1) {
-        precise Reservoir found = reservoir_of_stream(own.at, place, i);
+        Reservoir found = reservoir_of_stream(own.at, place, i);
         if (found.count == 0.0) continue;
-        precise float part = found.count / count;
-        precise float there = own.weight == 0.0 ? 0.0 : target(found.at, own.kept);
+        float part = found.count / count;
+        float there = own.weight == 0.0 ? 0.0 : target(found.at, own.kept);
         if (UNBIASED && there > 0.0) {
             if (is_hidden(found.at, own.kept)) there = 0.0;
         }
         left += part * (1.0 - share_of_stream(count, there, here));
-        precise float brought = found.weight == 0.0 ? 0.0 : target(own.at, found.kept);
-        precise float share = share_of_stream(count, target(found.at, found.kept), brought);
-        precise float u = next_independent(resampling.rng);
+        float brought = found.weight == 0.0 ? 0.0 : target(own.at, found.kept);
+        float share = share_of_stream(count, target(found.at, found.kept), brought);
+        float u = next_independent(resampling.rng);
         offer(stream, found.kept, part * share * brought * found.weight, i, u);
     }
-    precise float u = next_independent(resampling.rng);
+    float u = next_independent(resampling.rng);
     offer(stream, own.kept, left * here * own.weight, 0, u);
-    precise Reservoir result = Reservoir(stream.kept, 0.0, 1.0 + count, own.at);
+    Reservoir result = Reservoir(stream.kept, 0.0, 1.0 + count, own.at);
     if (stream.sum == 0.0) return result;
     if (stream.origin > 0) {
         if (is_hidden(own.at, stream.kept)) return result;
@@ -194,12 +194,12 @@ Reservoir merged(Reservoir own, ivec2 place) {
 }
 
 // The end of a path: adds its light through the point that is kept.
-void end_resampling(precise inout Path path, ivec2 place, int index) {
+void end_resampling(inout Path path, ivec2 place, int index) {
     if (!RESAMPLES) return;
     held_reservoir = empty_reservoir();
     if (resampling.stage == BEFORE_FIRST) return;
     if (resampling.stage == BEYOND_SECOND) {
-        precise vec3 light = path.radiance;
+        vec3 light = path.radiance;
         path.radiance = resampling.earlier;
         if (!is_finite(light)) path.radiance = light;
         else if (light != vec3(0.0)) {
@@ -207,12 +207,12 @@ void end_resampling(precise inout Path path, ivec2 place, int index) {
             offer_source(resampling.second, luminance(light) * PI);
         }
     }
-    precise Reservoir own = Reservoir(resampling.stream.kept, 0.0, 1.0, resampling.at);
+    Reservoir own = Reservoir(resampling.stream.kept, 0.0, 1.0, resampling.at);
     if (resampling.stream.sum > 0.0) own.weight = resampling.stream.sum / target(own.at, own.kept);
-    precise Reservoir result = own;
+    Reservoir result = own;
     if (REUSES && index % BLOCK > 0) result = merged(own, place);
     held_reservoir = REUSES_OWN ? result : own;
     if (result.weight == 0.0) return;
-    precise vec3 light = resampling.factor * result.kept.light * (geometry_term(result.at, result.kept) * result.weight);
+    vec3 light = resampling.factor * result.kept.light * (geometry_term(result.at, result.kept) * result.weight);
     path.radiance += light;
 }

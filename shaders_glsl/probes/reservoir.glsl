@@ -8,7 +8,7 @@
 const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);  // of linear sRGB, Rec. 709
 
 float luminance(vec3 light) {
-    precise float value = dot(light, LUMINANCE);
+    float value = dot(light, LUMINANCE);
     return value;
 }
 
@@ -49,20 +49,20 @@ Reservoir empty_reservoir() {
 
 // cos cos / r^2 between a surface and a source; 0 where one is behind the other.
 float geometry_term(Receiver at, Source source) {
-    precise vec3 away = source.position - at.position;
-    precise float distance = length(away);
+    vec3 away = source.position - at.position;
+    float distance = length(away);
     if (distance == 0.0) return 0.0;
-    precise vec3 direction = away / distance;
-    precise float cos_here = dot(at.normal, direction) / distance;
-    precise float cos_there = -dot(source.normal, direction) / distance;
+    vec3 direction = away / distance;
+    float cos_here = dot(at.normal, direction) / distance;
+    float cos_there = -dot(source.normal, direction) / distance;
     if (cos_here <= 0.0 || cos_there <= 0.0) return 0.0;
-    precise float product = cos_here * cos_there;
+    float product = cos_here * cos_there;
     return product;
 }
 
 // The target of a source, if nothing stands between.
 float target(Receiver at, Source source) {
-    precise float value = geometry_term(at, source) * luminance(source.light);
+    float value = geometry_term(at, source) * luminance(source.light);
     return value;
 }
 
@@ -78,7 +78,7 @@ Stream empty_stream() {
 }
 
 // `u`: a uniform random number, used for this candidate alone.
-void offer(precise inout Stream stream, Source source, float weight, int origin, float u) {
+void offer(inout Stream stream, Source source, float weight, int origin, float u) {
     stream.sum += weight;
     if (u * stream.sum < weight) {
         stream.kept = source;
@@ -115,12 +115,12 @@ vec4 part_of_reservoir(Reservoir held, int part) {
 }
 
 Reservoir reservoir_of_pixel(ivec2 pixel) {
-    precise vec4 a = reservoir_part_at(texel_of_part(pixel, 0));
-    precise vec4 b = reservoir_part_at(texel_of_part(pixel, 1));
-    precise vec4 c = reservoir_part_at(texel_of_part(pixel, 2));
-    precise vec4 d = reservoir_part_at(texel_of_part(pixel, 3));
-    precise vec4 e = reservoir_part_at(texel_of_part(pixel, 4));
-    precise vec4 f = reservoir_part_at(texel_of_part(pixel, 5));
-    precise Source kept = Source(a.xyz, b.xyz, c.xyz, of_halves(f.xy));
+    vec4 a = reservoir_part_at(texel_of_part(pixel, 0));
+    vec4 b = reservoir_part_at(texel_of_part(pixel, 1));
+    vec4 c = reservoir_part_at(texel_of_part(pixel, 2));
+    vec4 d = reservoir_part_at(texel_of_part(pixel, 3));
+    vec4 e = reservoir_part_at(texel_of_part(pixel, 4));
+    vec4 f = reservoir_part_at(texel_of_part(pixel, 5));
+    Source kept = Source(a.xyz, b.xyz, c.xyz, of_halves(f.xy));
     return Reservoir(kept, a.w, b.w, Receiver(d.xyz, e.xyz, of_halves(f.zw), c.w != 0.0));
 }

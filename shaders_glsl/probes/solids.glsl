@@ -13,17 +13,17 @@ bool is_solid(int shape) {
 // Whether the camera is in a solid: then the solid is a room.
 bool holds_camera(int shape) {
     if (HAS_SPHERE && up_to_sphere(shape)) {
-        precise Sphere sphere = sphere_at(shape);
+        Sphere sphere = sphere_at(shape);
         return dot(sphere.center, sphere.center) <= sphere.radius * sphere.radius;
     }
     if (HAS_BOX && up_to_box(shape)) {
-        precise Box box = box_at(shape - first_box());
-        precise vec3 eye = abs(along_edges(box, box.center));
+        Box box = box_at(shape - first_box());
+        vec3 eye = abs(along_edges(box, box.center));
         return all(lessThanEqual(eye, vec3(box.half_x, box.half_y, box.half_z)));
     }
-    precise Cylinder cylinder = cylinder_at(shape - first_cylinder());
-    precise float height = dot(cylinder.center, cylinder.axis);
-    precise float beside = length(cylinder.center - height * cylinder.axis);
+    Cylinder cylinder = cylinder_at(shape - first_cylinder());
+    float height = dot(cylinder.center, cylinder.axis);
+    float beside = length(cylinder.center - height * cylinder.axis);
     return abs(height) <= cylinder.half_height && beside <= cylinder.radius;
 }
 

@@ -3,21 +3,21 @@
 // overloads.
 
 float dot(vec2 a, vec2 b) {
-    precise float sum = a.x * b.x + a.y * b.y;
+    float sum = a.x * b.x + a.y * b.y;
     return sum;
 }
 
 float dot(vec3 a, vec3 b) {
-    precise float sum = a.x * b.x + (a.y * b.y + a.z * b.z);
+    float sum = a.x * b.x + (a.y * b.y + a.z * b.z);
     return sum;
 }
 
 float length(vec2 v) {
-    precise float root = sqrt(dot(v, v));
+    float root = sqrt(dot(v, v));
     return root;
 }
 
 float length(vec3 v) {
-    precise float root = sqrt(dot(v, v));
+    float root = sqrt(dot(v, v));
     return root;
 }

@@ -9,6 +9,6 @@ void leave_vertex(uint seed, int depth) {
 
 // The number for the surface that a ray meets after `passed` others.
 float hole_number(uint passed) {
-    precise float value = unit_float(pcg_hash(hole_key + passed));
+    float value = unit_float(pcg_hash(hole_key + passed));
     return value;
 }

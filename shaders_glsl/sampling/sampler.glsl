@@ -27,7 +27,7 @@ Sampler make_sampler(uint seed) {
 
 // The sampler of the sample `index`, from 0, of a pixel.
 Sampler sampler_at(ivec2 pixel, int index, uint seed) {
-    precise Sampler rng = make_sampler(pixel_seed(pixel, index, seed));
+    Sampler rng = make_sampler(pixel_seed(pixel, index, seed));
     if (BLOCK > 1) {
         rng.block = pixel_seed(pixel, index / BLOCK, ~seed);  // differs from the seeds of all samples
         rng.point = uint(index % BLOCK);
@@ -41,7 +41,7 @@ Sampler sampler_beside(Sampler self, int number) {
     return make_sampler(pcg_hash(~self.seed + pcg_hash(uint(number))));
 }
 
-float next_independent(precise inout Sampler self) {
+float next_independent(inout Sampler self) {
     self.dimension += STEP;
     return unit_float(pcg_hash(self.seed ^ self.dimension));
 }
@@ -58,7 +58,7 @@ vec2 next_of_64(Sampler self, uint first, bool last) {
 }
 
 // Two successive draws share one shuffled point of four dimensions.
-vec2 next_sobol(precise inout Sampler self) {
+vec2 next_sobol(inout Sampler self) {
     self.dimension += STEP;
     bool last = (self.dimension & 1u) == 0u;  // STEP is odd: true for every second draw
     uint first = last ? self.dimension - STEP : self.dimension;
@@ -68,14 +68,14 @@ vec2 next_sobol(precise inout Sampler self) {
     return sobol_place(cell, pcg_hash(self.seed ^ self.dimension));
 }
 
-float next_1d(precise inout Sampler self) {
+float next_1d(inout Sampler self) {
     if (BLOCK > 1) return next_sobol(self).x;
     return next_independent(self);
 }
 
-vec2 next_2d(precise inout Sampler self) {
+vec2 next_2d(inout Sampler self) {
     if (BLOCK > 1) return next_sobol(self);
-    precise float x = next_independent(self);
-    precise float y = next_independent(self);
+    float x = next_independent(self);
+    float y = next_independent(self);
     return vec2(x, y);
 }

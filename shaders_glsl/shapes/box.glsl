@@ -17,31 +17,31 @@ struct BoxCrossing {
 };
 
 vec3 along_edges(Box box, vec3 v) {
-    precise vec3 local = vec3(dot(box.axis_x, v), dot(box.axis_y, v), dot(box.axis_z, v));
+    vec3 local = vec3(dot(box.axis_x, v), dot(box.axis_y, v), dot(box.axis_z, v));
     return local;
 }
 
 // A ray parallel to a pair of faces is between them everywhere or nowhere.
 vec2 between_faces(float origin, float direction, float half_size) {
     if (direction == 0.0) return vec2(abs(origin) <= half_size ? -FAR : FAR, FAR);
-    precise float ahead = direction < 0.0 ? -half_size : half_size;
-    precise vec2 times = vec2(-ahead - origin, ahead - origin) / direction;
+    float ahead = direction < 0.0 ? -half_size : half_size;
+    vec2 times = vec2(-ahead - origin, ahead - origin) / direction;
     return times;
 }
 
 BoxCrossing cross_box(Ray ray, Box box) {
-    precise vec3 origin = along_edges(box, ray.origin - box.center);
-    precise vec3 direction = along_edges(box, ray.direction);
-    precise vec2 x = between_faces(origin.x, direction.x, box.half_x);
-    precise vec2 y = between_faces(origin.y, direction.y, box.half_y);
-    precise vec2 z = between_faces(origin.z, direction.z, box.half_z);
-    precise float enters = larger(larger(x.x, y.x), z.x);
-    precise float leaves = lesser(lesser(x.y, y.y), z.y);
+    vec3 origin = along_edges(box, ray.origin - box.center);
+    vec3 direction = along_edges(box, ray.direction);
+    vec2 x = between_faces(origin.x, direction.x, box.half_x);
+    vec2 y = between_faces(origin.y, direction.y, box.half_y);
+    vec2 z = between_faces(origin.z, direction.z, box.half_z);
+    float enters = larger(larger(x.x, y.x), z.x);
+    float leaves = lesser(lesser(x.y, y.y), z.y);
     return BoxCrossing(direction, vec3(x.x, y.x, z.x), vec3(x.y, y.y, z.y), enters, leaves);
 }
 
 float box_distance(Ray ray, Box box, int shape) {
-    precise BoxCrossing crossing = cross_box(ray, box);
+    BoxCrossing crossing = cross_box(ray, box);
     if (shape == ray.origin_shape) return ray.inward ? larger(crossing.leaves, NO_WAY) : 0.0;
     if (crossing.enters > crossing.leaves) return 0.0;
     return crossing.enters > 0.0 ? crossing.enters : crossing.leaves;
@@ -49,13 +49,13 @@ float box_distance(Ray ray, Box box, int shape) {
 
 // The ray decides which face it has met, and not the point: at an edge, only this keeps to the ray's side.
 Surface box_surface(Ray ray, vec3 p, int shape) {
-    precise Box box = box_at(shape - first_box());
-    precise BoxCrossing crossing = cross_box(ray, box);
+    Box box = box_at(shape - first_box());
+    BoxCrossing crossing = cross_box(ray, box);
     bool inside = shape == ray.origin_shape || crossing.enters <= 0.0;
-    precise vec3 times = inside ? crossing.last : crossing.first;
-    precise float time = inside ? crossing.leaves : crossing.enters;
-    precise vec4 face = vec4(box.axis_z, box.half_z);
-    precise float along = crossing.direction.z;
+    vec3 times = inside ? crossing.last : crossing.first;
+    float time = inside ? crossing.leaves : crossing.enters;
+    vec4 face = vec4(box.axis_z, box.half_z);
+    float along = crossing.direction.z;
     if (times.y == time) {
         face = vec4(box.axis_y, box.half_y);
         along = crossing.direction.y;
@@ -64,7 +64,7 @@ Surface box_surface(Ray ray, vec3 p, int shape) {
         face = vec4(box.axis_x, box.half_x);
         along = crossing.direction.x;
     }
-    precise vec3 normal = (along < 0.0) == inside ? -face.xyz : face.xyz;
-    precise vec3 position = p - (dot(p - box.center, normal) - face.w) * normal;
+    vec3 normal = (along < 0.0) == inside ? -face.xyz : face.xyz;
+    vec3 position = p - (dot(p - box.center, normal) - face.w) * normal;
     return Surface(position, normal, shape, box.material, NO_LIGHT);
 }

@@ -10,13 +10,13 @@ const float TOGETHER = 4.0 * CLEARANCE;
 const float STEEP = 3.90625e-3;  // 2^-8, a cosine: below it a ray runs nearly along surfaces, which do not tie
 
 float coincident_reach(Ray ray) {
-    precise vec3 size = abs(ray.origin);
-    precise float reach = larger(frame.coincident_reach, larger(larger(size.x, size.y), size.z));
+    vec3 size = abs(ray.origin);
+    float reach = larger(frame.coincident_reach, larger(larger(size.x, size.y), size.z));
     return reach;
 }
 
 vec3 box_face_at(Box box, vec3 place) {
-    precise vec3 beyond = abs(along_edges(box, place - box.center)) - vec3(box.half_x, box.half_y, box.half_z);
+    vec3 beyond = abs(along_edges(box, place - box.center)) - vec3(box.half_x, box.half_y, box.half_z);
     if (beyond.x >= beyond.y && beyond.x >= beyond.z) return box.axis_x;
     return beyond.y >= beyond.z ? box.axis_y : box.axis_z;
 }
@@ -26,24 +26,24 @@ vec3 normal_left(Ray ray, float reach) {
     int shape = ray.origin_shape;
     if (shape == NO_SHAPE || (HAS_SPHERE && up_to_sphere(shape))) return vec3(0.0);
     if (HAS_BOX && is_box(shape)) {
-        precise vec3 face = box_face_at(box_at(shape - first_box()), ray.origin);
+        vec3 face = box_face_at(box_at(shape - first_box()), ray.origin);
         return face;
     }
     if (HAS_CYLINDER && is_cylinder(shape)) {
-        precise Cylinder cylinder = cylinder_at(shape - first_cylinder());
-        precise float height = abs(dot(ray.origin - cylinder.center, cylinder.axis));
+        Cylinder cylinder = cylinder_at(shape - first_cylinder());
+        float height = abs(dot(ray.origin - cylinder.center, cylinder.axis));
         bool is_cap = height >= cylinder.half_height - APART * reach;
         return is_cap ? cylinder.axis : vec3(0.0);
     }
-    precise vec3 normal = true_normal(surface_at(ray, Hit(0.0, shape)));
+    vec3 normal = true_normal(surface_at(ray, Hit(0.0, shape)));
     return normal;
 }
 
 // The ray, with an origin clear of all surfaces in the place of the surface that it leaves.
 Ray clear_of(Ray ray) {
-    precise float reach = coincident_reach(ray);
-    precise vec3 normal = normal_left(ray, reach);
-    precise float shift = dot(normal, ray.direction) < 0.0 ? -APART * reach : APART * reach;
+    float reach = coincident_reach(ray);
+    vec3 normal = normal_left(ray, reach);
+    float shift = dot(normal, ray.direction) < 0.0 ? -APART * reach : APART * reach;
     ray.origin += shift * normal;
     return ray;
 }
@@ -54,9 +54,9 @@ struct Claim {
 };
 
 Claim claim_of(Ray ray, float t, int shape) {
-    precise Surface surface = surface_at(ray, Hit(t, shape));
-    precise vec3 normal = true_normal(surface);
-    precise Material material = material_at(surface.material);
+    Surface surface = surface_at(ray, Hit(t, shape));
+    vec3 normal = true_normal(surface);
+    Material material = material_at(surface.material);
     bool shines = material.emission != vec3(0.0);
     if (HAS_ONE_SIDED && emitter_at(material.emitter).is_one_sided != 0) {
         shines = shines && dot(normal, ray.direction) < 0.0;
@@ -66,20 +66,20 @@ Claim claim_of(Ray ray, float t, int shape) {
 
 // How far apart along a ray two hits may be that tie.
 float tie_length(Ray ray) {
-    precise float most = TOGETHER / STEEP * coincident_reach(ray);
+    float most = TOGETHER / STEEP * coincident_reach(ray);
     return most;
 }
 
 // Whether a ray that meets a shape at t sees this shape instead of the nearest hit so far.
 bool comes_before(Ray ray, float t, int shape, Hit hit) {
     bool is_before = t < hit.distance;
-    precise float apart = abs(t - hit.distance);
+    float apart = abs(t - hit.distance);
     // A loop, because llvmpipe runs the body of an `if` in any case, but leaves out a loop that no lane enters.
     int ties = t > 0.0 && apart <= tie_length(ray) && hit.shape != NO_SHAPE ? 1 : 0;
     for (int i = 0; i < ties; ++i) {
-        precise Claim own = claim_of(ray, t, shape);
-        precise Claim other = claim_of(ray, hit.distance, hit.shape);
-        precise float cosine = larger(abs(dot(own.normal, ray.direction)), abs(dot(other.normal, ray.direction)));
+        Claim own = claim_of(ray, t, shape);
+        Claim other = claim_of(ray, hit.distance, hit.shape);
+        float cosine = larger(abs(dot(own.normal, ray.direction)), abs(dot(other.normal, ray.direction)));
         if (apart * cosine > TOGETHER * coincident_reach(ray)) continue;
         is_before = own.shines == other.shines ? shape < hit.shape : own.shines;
     }

@@ -8,7 +8,7 @@ Hit find_among_others(Ray ray, Hit hit, int ignored, bool any) {
         int i = 0;
         for (; i < disk_count(); ++i) {
             int shape = first_disk() + i;
-            precise float t = disk_distance(ray, disk_at(i));
+            float t = disk_distance(ray, disk_at(i));
             if (t > 0.0 && is_nearer(ray, t, shape, hit) && shape != ray.origin_shape && shape != ignored) {
                 hit = Hit(t, shape);
                 if (any) return hit;
@@ -20,7 +20,7 @@ Hit find_among_others(Ray ray, Hit hit, int ignored, bool any) {
         int i = 0;
         for (; i < box_count(); ++i) {
             int shape = first_box() + i;
-            precise float t = box_distance(ray, box_at(i), shape);
+            float t = box_distance(ray, box_at(i), shape);
             if (t > 0.0 && is_nearer(ray, t, shape, hit)) {
                 hit = Hit(t, shape);
                 if (any) return hit;
@@ -32,7 +32,7 @@ Hit find_among_others(Ray ray, Hit hit, int ignored, bool any) {
         int i = 0;
         for (; i < cylinder_count(); ++i) {
             int shape = first_cylinder() + i;
-            precise float t = cylinder_distance(ray, cylinder_at(i), shape);
+            float t = cylinder_distance(ray, cylinder_at(i), shape);
             if (t > 0.0 && is_nearer(ray, t, shape, hit)) {
                 hit = Hit(t, shape);
                 if (any) return hit;
@@ -49,7 +49,7 @@ Hit find_among_others(Ray ray, Hit hit, int ignored, bool any) {
 //
 // The loops stand in one function: a function for each kind, with its early exit, costs 1 to 3 % on llvmpipe.
 Hit find_hit(Ray ray, float limit, int ignored, bool any) {
-    precise Hit hit = Hit(limit, NO_SHAPE);
+    Hit hit = Hit(limit, NO_SHAPE);
     if (HAS_COINCIDENT) ray = clear_of(ray);
     if (HAS_SPHERE_TREE) {
         hit = find_sphere_by_tree(ray, hit, ignored, any);
@@ -57,7 +57,7 @@ Hit find_hit(Ray ray, float limit, int ignored, bool any) {
     } else if (HAS_SPHERE && !HAS_TREE) {
         int i = 0;
         for (; i < sphere_count(); ++i) {
-            precise float t = sphere_distance(ray, sphere_at(i), i);
+            float t = sphere_distance(ray, sphere_at(i), i);
             if (t > 0.0 && t < hit.distance && i != ignored) {
                 hit = Hit(t, i);
                 if (any) return hit;
@@ -69,8 +69,8 @@ Hit find_hit(Ray ray, float limit, int ignored, bool any) {
         int i = 0;
         for (; i < plane_count(); ++i) {
             int shape = first_plane() + i;
-            precise Plane plane = plane_at(i);
-            precise float t = plane_distance(ray, plane.point, plane.normal);
+            Plane plane = plane_at(i);
+            float t = plane_distance(ray, plane.point, plane.normal);
             if (t > 0.0 && is_nearer(ray, t, shape, hit) && shape != ray.origin_shape) {
                 hit = Hit(t, shape);
                 if (any) return hit;
@@ -82,7 +82,7 @@ Hit find_hit(Ray ray, float limit, int ignored, bool any) {
         int i = 0;
         for (; i < quad_count(); ++i) {
             int shape = first_quad() + i;
-            precise float t = quad_distance(ray, quad_at(i));
+            float t = quad_distance(ray, quad_at(i));
             if (t > 0.0 && is_nearer(ray, t, shape, hit) && shape != ray.origin_shape && shape != ignored) {
                 hit = Hit(t, shape);
                 if (any) return hit;

@@ -33,27 +33,27 @@ Inward inward_of(Instance instance) {
 
 // The same, from a leaf as the packer writes it: glrt/packing/instances.py.
 Inward inward_at(Slot slot) {
-    precise vec4 a = uintBitsToFloat(slot.a);
-    precise vec4 b = uintBitsToFloat(slot.b);
-    precise vec4 c = uintBitsToFloat(slot.c);
+    vec4 a = uintBitsToFloat(slot.a);
+    vec4 b = uintBitsToFloat(slot.b);
+    vec4 c = uintBitsToFloat(slot.c);
     return Inward(a.xyz, vec3(a.w, b.xy), vec3(b.zw, c.x), c.yzw, uintBitsToFloat(slot.d.z));
 }
 
 // A vector of the scene in the frame of a mesh. Distances along a ray stay those of the scene.
 vec3 turned_in(Inward inward, vec3 v) {
-    precise vec3 turned = vec3(dot(inward.to_x, v), dot(inward.to_y, v), dot(inward.to_z, v));
+    vec3 turned = vec3(dot(inward.to_x, v), dot(inward.to_y, v), dot(inward.to_z, v));
     return turned;
 }
 
 // A vector perpendicular to a surface, from the frame of a mesh to the scene.
 vec3 facing_of(Instance instance, vec3 normal) {
-    precise vec3 facing = normal.x * instance.to_x + normal.y * instance.to_y + normal.z * instance.to_z;
+    vec3 facing = normal.x * instance.to_x + normal.y * instance.to_y + normal.z * instance.to_z;
     return facing;
 }
 
 // A point given in the frame of a mesh, relative to the middle of the tree.
 vec3 place_of(Instance instance, vec3 point) {
-    precise vec3 place = instance.origin + point.x * instance.from_x + point.y * instance.from_y
+    vec3 place = instance.origin + point.x * instance.from_x + point.y * instance.from_y
                        + point.z * instance.from_z;
     return place;
 }

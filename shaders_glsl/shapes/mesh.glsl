@@ -29,26 +29,26 @@ struct ShearedRay {
 
 // A triangle does not know the numbers of its neighbours. So a ray starts clear of its plane, on the ray's side.
 vec3 start_among_triangles(Ray ray) {
-    precise vec3 place = ray.origin - frame.tree_center;
+    vec3 place = ray.origin - frame.tree_center;
     if (!is_triangle(ray.origin_shape) || instance_of(ray.origin_shape) > 0) return place;
-    precise Triangle left = triangle_of(ray.origin_shape);
-    precise vec3 away = abs(frame.tree_center);
-    precise float largest = larger(larger(away.x, away.y), larger(away.z, left.reach));
-    precise float shift = dot(left.normal, ray.direction) < 0.0 ? -CLEARANCE * largest : CLEARANCE * largest;
+    Triangle left = triangle_of(ray.origin_shape);
+    vec3 away = abs(frame.tree_center);
+    float largest = larger(larger(away.x, away.y), larger(away.z, left.reach));
+    float shift = dot(left.normal, ray.direction) < 0.0 ? -CLEARANCE * largest : CLEARANCE * largest;
     place += shift * left.normal;
     return place;
 }
 
 ShearedRay sheared_along(vec3 origin, vec3 direction) {
-    precise vec3 size = abs(direction);
+    vec3 size = abs(direction);
     bool along_x = size.x >= size.y && size.x >= size.z;
     bool along_y = !along_x && size.y >= size.z;
-    precise vec3 z = along_x ? vec3(1.0, 0.0, 0.0) : along_y ? vec3(0.0, 1.0, 0.0) : vec3(0.0, 0.0, 1.0);
-    precise vec3 x = z.zxy;
-    precise vec3 y = z.yzx;
-    precise float scale = 1.0 / dot(z, direction);
-    precise vec3 shear_x = x - dot(x, direction) * scale * z;
-    precise vec3 shear_y = y - dot(y, direction) * scale * z;
+    vec3 z = along_x ? vec3(1.0, 0.0, 0.0) : along_y ? vec3(0.0, 1.0, 0.0) : vec3(0.0, 0.0, 1.0);
+    vec3 x = z.zxy;
+    vec3 y = z.yzx;
+    float scale = 1.0 / dot(z, direction);
+    vec3 shear_x = x - dot(x, direction) * scale * z;
+    vec3 shear_y = y - dot(y, direction) * scale * z;
     return ShearedRay(origin, shear_x, shear_y, scale * z);
 }
 
@@ -69,106 +69,106 @@ Left left_by(Ray ray) {
     if (!HAS_INSTANCE || !is_triangle(ray.origin_shape)) return Left(vec3(0.0), 0);
     int instance = instance_of(ray.origin_shape);
     if (instance == 0) return Left(vec3(0.0), 0);
-    precise Inward inward = inward_of(instance_at(instance - 1));
-    precise vec3 size = abs(ray.origin) + abs(frame.tree_center) + inward.reach;
-    precise vec3 rounded = vec3(
+    Inward inward = inward_of(instance_at(instance - 1));
+    vec3 size = abs(ray.origin) + abs(frame.tree_center) + inward.reach;
+    vec3 rounded = vec3(
         dot(abs(inward.to_x), size), dot(abs(inward.to_y), size), dot(abs(inward.to_z), size));
-    precise vec3 normal = triangle_of(ray.origin_shape).normal;
-    precise float shift = CLEARANCE * dot(abs(normal), rounded);
+    vec3 normal = triangle_of(ray.origin_shape).normal;
+    float shift = CLEARANCE * dot(abs(normal), rounded);
     if (dot(normal, turned_in(inward, ray.direction)) < 0.0) shift = -shift;
     return Left(shift * normal, instance);
 }
 
 ShearedRay sheared_in(Ray ray, int instance) {
-    precise Inward inward = inward_of(instance_at(instance - 1));
-    precise vec3 start = turned_in(inward, ray.origin - frame.tree_center - inward.origin);
-    precise Left left = left_by(ray);
+    Inward inward = inward_of(instance_at(instance - 1));
+    vec3 start = turned_in(inward, ray.origin - frame.tree_center - inward.origin);
+    Left left = left_by(ray);
     if (left.instance == instance) start += left.shift;
     return sheared_along(start, turned_in(inward, ray.direction));
 }
 
 vec3 sheared_point(ShearedRay ray, vec3 corner) {
-    precise vec3 offset = corner - ray.origin;
-    precise vec3 point = vec3(dot(ray.x, offset), dot(ray.y, offset), dot(ray.z, offset));
+    vec3 offset = corner - ray.origin;
+    vec3 point = vec3(dot(ray.x, offset), dot(ray.y, offset), dot(ray.z, offset));
     return point;
 }
 
 // The shares of the corners in the point that the ray meets, not yet divided by their sum. Their signs differ
 // where the ray passes by.
 vec3 corner_shares(vec3 a, vec3 b, vec3 c) {
-    precise vec3 shares = vec3(c.x * b.y - c.y * b.x, a.x * c.y - a.y * c.x, b.x * a.y - b.y * a.x);
+    vec3 shares = vec3(c.x * b.y - c.y * b.x, a.x * c.y - a.y * c.x, b.x * a.y - b.y * a.x);
     return shares;
 }
 
 // The distance along the ray, not above 0 for a miss.
 float triangle_distance(vec3 a, vec3 b, vec3 c) {
-    precise vec3 shares = corner_shares(a, b, c);
+    vec3 shares = corner_shares(a, b, c);
     bool is_front = shares.x >= 0.0 && shares.y >= 0.0 && shares.z >= 0.0;
     bool is_back = shares.x <= 0.0 && shares.y <= 0.0 && shares.z <= 0.0;
-    precise float sum = shares.x + shares.y + shares.z;
+    float sum = shares.x + shares.y + shares.z;
     if (!(is_front || is_back) || sum == 0.0) return 0.0;
-    precise float t = (shares.x * a.z + shares.y * b.z + shares.z * c.z) / sum;
+    float t = (shares.x * a.z + shares.y * b.z + shares.z * c.z) / sum;
     return t;
 }
 
 vec3 unpacked_normal(uint bits) {
-    precise vec2 flat_normal = vec2(ivec2(bits & 0xFFFFu, bits >> 16u)) / 32767.0 - 1.0;
-    precise float z = 1.0 - abs(flat_normal.x) - abs(flat_normal.y);
-    precise vec2 folded = 1.0 - abs(flat_normal.yx);
-    precise float x = flat_normal.x >= 0.0 ? folded.x : -folded.x;
-    precise float y = flat_normal.y >= 0.0 ? folded.y : -folded.y;
-    precise vec3 normal = z >= 0.0 ? vec3(flat_normal, z) : vec3(x, y, z);
+    vec2 flat_normal = vec2(ivec2(bits & 0xFFFFu, bits >> 16u)) / 32767.0 - 1.0;
+    float z = 1.0 - abs(flat_normal.x) - abs(flat_normal.y);
+    vec2 folded = 1.0 - abs(flat_normal.yx);
+    float x = flat_normal.x >= 0.0 ? folded.x : -folded.x;
+    float y = flat_normal.y >= 0.0 ? folded.y : -folded.y;
+    vec3 normal = z >= 0.0 ? vec3(flat_normal, z) : vec3(x, y, z);
     return normal;
 }
 
 // The normal of a corner, relative to the axes of the scene.
 vec3 corner_normal(Corner corner, int instance) {
-    precise vec3 normal = unpacked_normal(corner.normal);
+    vec3 normal = unpacked_normal(corner.normal);
     if (instance > 0) normal = facing_of(instance_at(instance - 1), normal);
-    precise vec3 unit = normalized(normal);
+    vec3 unit = normalized(normal);
     return unit;
 }
 
 // The true normal of a triangle, which defines its two sides.
 vec3 triangle_normal(Triangle triangle, int instance) {
     if (instance == 0) return triangle.normal;
-    precise vec3 normal = normalized(facing_of(instance_at(instance - 1), triangle.normal));
+    vec3 normal = normalized(facing_of(instance_at(instance - 1), triangle.normal));
     return normal;
 }
 
 // The normal interpolated between the normals of the corners, on the side of the triangle's own.
 vec3 smooth_normal(vec3 own, int instance, vec3 shares, Corner a, Corner b, Corner c) {
-    precise vec3 mean = shares.x * corner_normal(a, instance)
+    vec3 mean = shares.x * corner_normal(a, instance)
                       + shares.y * corner_normal(b, instance)
                       + shares.z * corner_normal(c, instance);
     if (dot(mean, mean) < 1.0e-6) return own;  // opposite normals nearly cancel
-    precise vec3 normal = normalized(mean);
+    vec3 normal = normalized(mean);
     return dot(normal, own) < 0.0 ? -normal : normal;
 }
 
 // The shares of the corners in the point that the ray met, 1 in sum.
 vec3 met_shares(Ray ray, int instance, Corner a, Corner b, Corner c) {
-    precise ShearedRay turned = sheared(ray);
+    ShearedRay turned = sheared(ray);
     if (instance > 0) turned = sheared_in(ray, instance);
-    precise vec3 shares = corner_shares(
+    vec3 shares = corner_shares(
         sheared_point(turned, a.position), sheared_point(turned, b.position), sheared_point(turned, c.position));
-    precise float sum = shares.x + shares.y + shares.z;
+    float sum = shares.x + shares.y + shares.z;
     if (sum == 0.0) return vec3(1.0, 0.0, 0.0);  // by rounding, where a sliver is seen from its edge
     shares /= sum;
     return shares;
 }
 
 Surface mesh_surface(Ray ray, int shape) {
-    precise Triangle triangle = triangle_of(shape);
-    precise Corner a = corner_at(triangle.corners.x);
-    precise Corner b = corner_at(triangle.corners.y);
-    precise Corner c = corner_at(triangle.corners.z);
+    Triangle triangle = triangle_of(shape);
+    Corner a = corner_at(triangle.corners.x);
+    Corner b = corner_at(triangle.corners.y);
+    Corner c = corner_at(triangle.corners.z);
     int instance = instance_of(shape);
-    precise vec3 shares = met_shares(ray, instance, a, b, c);
-    precise vec3 place = shares.x * a.position + shares.y * b.position + shares.z * c.position;
+    vec3 shares = met_shares(ray, instance, a, b, c);
+    vec3 place = shares.x * a.position + shares.y * b.position + shares.z * c.position;
     if (instance > 0) place = place_of(instance_at(instance - 1), place);
-    precise Mesh mesh = mesh_at(owner_of(triangle, instance));
-    precise vec3 normal = triangle_normal(triangle, instance);
+    Mesh mesh = mesh_at(owner_of(triangle, instance));
+    vec3 normal = triangle_normal(triangle, instance);
     if (HAS_SMOOTH && mesh.is_smooth != 0) normal = smooth_normal(normal, instance, shares, a, b, c);
     int light = HAS_MESH_LIGHT && instance == 0 ? int(triangle.owner >> 16u) - 1 : NO_LIGHT;
     return Surface(place + frame.tree_center, normal, shape, mesh.material, light);
@@ -184,10 +184,10 @@ vec3 true_normal(Surface surface) {
 // the same colour give that colour to the bit.
 vec3 vertex_color(Ray ray, int shape) {
     ivec3 corners = triangle_of(shape).corners;
-    precise Corner a = corner_at(corners.x);
-    precise vec3 shares = met_shares(ray, instance_of(shape), a, corner_at(corners.y), corner_at(corners.z));
-    precise vec3 first = tint_at(corners.x).color;
-    precise vec3 color = first + shares.y * (tint_at(corners.y).color - first)
+    Corner a = corner_at(corners.x);
+    vec3 shares = met_shares(ray, instance_of(shape), a, corner_at(corners.y), corner_at(corners.z));
+    vec3 first = tint_at(corners.x).color;
+    vec3 color = first + shares.y * (tint_at(corners.y).color - first)
                        + shares.z * (tint_at(corners.z).color - first);
     return clamp(color, 0.0, 1.0);
 }

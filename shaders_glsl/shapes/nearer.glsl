@@ -8,7 +8,7 @@ bool is_nearer(Ray ray, float t, int shape, Hit hit) {
 
 // The largest distance at which a shape may replace a hit.
 float farthest(Ray ray, Hit hit) {
-    precise float most = hit.distance;
+    float most = hit.distance;
     if (HAS_COINCIDENT) most += tie_length(ray);
     return most;
 }

@@ -2,7 +2,7 @@
 
 // The point of a hit, moved back onto the shape: computed from the distance alone it would lie off the shape.
 Surface surface_at(Ray ray, Hit hit) {
-    precise vec3 p = ray.origin + hit.distance * ray.direction;
+    vec3 p = ray.origin + hit.distance * ray.direction;
     if (HAS_SPHERE && up_to_sphere(hit.shape)) return sphere_surface(p, hit.shape);
     if (HAS_PLANE && up_to_plane(hit.shape)) return plane_surface(p, hit.shape);
     if (HAS_QUAD && up_to_quad(hit.shape)) return quad_surface(p, hit.shape);

@@ -18,48 +18,48 @@ int number_in(Slot leaf) { return int(leaf.d.w & LINK); }
 // Tests the shape of a leaf; its packer: glrt/packing/shape_tree.py.
 Hit meet_leaf(Ray ray, ShearedRay turned, int instance, Slot slot, Hit hit, int ignored) {
     int kind = kind_of(slot);
-    precise vec4 a = uintBitsToFloat(slot.a);
-    precise vec4 b = uintBitsToFloat(slot.b);
-    precise vec4 c = uintBitsToFloat(slot.c);
-    precise vec3 d = uintBitsToFloat(slot.d.xyz);
+    vec4 a = uintBitsToFloat(slot.a);
+    vec4 b = uintBitsToFloat(slot.b);
+    vec4 c = uintBitsToFloat(slot.c);
+    vec3 d = uintBitsToFloat(slot.d.xyz);
     if (HAS_MESH && kind == TRIANGLES) {
-        precise vec3 p = sheared_point(turned, a.xyz);
-        precise vec3 q = sheared_point(turned, vec3(a.w, b.xy));
-        precise vec3 r = sheared_point(turned, vec3(b.zw, c.x));
-        precise vec3 s = sheared_point(turned, c.yzw);
+        vec3 p = sheared_point(turned, a.xyz);
+        vec3 q = sheared_point(turned, vec3(a.w, b.xy));
+        vec3 r = sheared_point(turned, vec3(b.zw, c.x));
+        vec3 s = sheared_point(turned, c.yzw);
         ivec2 triangles = first_triangle() + ivec2(slot.d.xy);
         if (HAS_INSTANCE) triangles += instance << INSTANCE_BITS;
-        precise float first = triangle_distance(p, q, r);
+        float first = triangle_distance(p, q, r);
         if (triangles.x != ray.origin_shape) hit = nearer(ray, hit, first, triangles.x, ignored);
-        precise float second = triangle_distance(p, r, s);
+        float second = triangle_distance(p, r, s);
         if (triangles.y != ray.origin_shape) hit = nearer(ray, hit, second, triangles.y, ignored);
     }
     if (!HAS_TREE) return hit;
     int shape = number_in(slot);
     if (HAS_SPHERE && !HAS_SPHERE_TREE && kind == SPHERE) {
-        precise float t = sphere_distance(ray, Sphere(a.xyz, a.w, 0, NO_LIGHT), shape);
+        float t = sphere_distance(ray, Sphere(a.xyz, a.w, 0, NO_LIGHT), shape);
         hit = nearer(ray, hit, t, shape, ignored);
     }
     if (HAS_QUAD && kind == QUAD && shape != ray.origin_shape) {
-        precise vec3 none = vec3(0.0);
-        precise vec3 dual_u = vec3(b.zw, c.x);
-        precise Quad quad = Quad(a.xyz, 0, vec3(a.w, b.xy), NO_LIGHT, none, 0.0, none, 0.0, dual_u, 0.0, c.yzw);
-        precise float t = quad_distance(ray, quad);
+        vec3 none = vec3(0.0);
+        vec3 dual_u = vec3(b.zw, c.x);
+        Quad quad = Quad(a.xyz, 0, vec3(a.w, b.xy), NO_LIGHT, none, 0.0, none, 0.0, dual_u, 0.0, c.yzw);
+        float t = quad_distance(ray, quad);
         hit = nearer(ray, hit, t, shape, ignored);
     }
     if (HAS_DISK && kind == DISK && shape != ray.origin_shape) {
-        precise Disk disk = Disk(a.xyz, 0, vec3(a.w, b.xy), b.z, NO_LIGHT);
-        precise float t = disk_distance(ray, disk);
+        Disk disk = Disk(a.xyz, 0, vec3(a.w, b.xy), b.z, NO_LIGHT);
+        float t = disk_distance(ray, disk);
         hit = nearer(ray, hit, t, shape, ignored);
     }
     if (HAS_BOX && kind == BOX) {
-        precise Box box = Box(a.xyz, 0, vec3(a.w, b.xy), b.z, vec3(b.w, c.xy), c.z, vec3(c.w, d.xy), d.z);
-        precise float t = box_distance(ray, box, shape);
+        Box box = Box(a.xyz, 0, vec3(a.w, b.xy), b.z, vec3(b.w, c.xy), c.z, vec3(c.w, d.xy), d.z);
+        float t = box_distance(ray, box, shape);
         hit = nearer(ray, hit, t, shape, ignored);
     }
     if (HAS_CYLINDER && kind == CYLINDER) {
-        precise Cylinder cylinder = Cylinder(a.xyz, 0, vec3(a.w, b.xy), b.z, b.w, int(slot.c.x));
-        precise float t = cylinder_distance(ray, cylinder, shape);
+        Cylinder cylinder = Cylinder(a.xyz, 0, vec3(a.w, b.xy), b.z, b.w, int(slot.c.x));
+        float t = cylinder_distance(ray, cylinder, shape);
         hit = nearer(ray, hit, t, shape, ignored);
     }
     return hit;  // the nearest so far
@@ -98,11 +98,11 @@ struct Course {
 // Visits a slot on the way to the nearest shape nearer than hit.distance, or at the same distance with a lower
 // number. Children are visited in the order in which the ray enters them. `group` contains the number of children
 // left, from bit 24 on, and the numbers of these children, 3 bits each, the nearest first.
-void visit_nearest(Ray ray, Course course, Slot slot, int ignored, precise inout Walk walk, precise inout Hit hit) {
+void visit_nearest(Ray ray, Course course, Slot slot, int ignored, inout Walk walk, inout Hit hit) {
     bool is_leaf = (slot.d.w & LEAF) != 0u;
     if (is_leaf) hit = meet_leaf(ray, course.turned, course.instance, slot, hit, ignored);
-    precise Children children = children_of(slot, course.grid);
-    precise float limit = farthest(ray, hit);
+    Children children = children_of(slot, course.grid);
+    float limit = farthest(ray, hit);
     uint k0 = meets_child(children, 0u, children.near_low, children.far_low, limit);
     uint k1 = meets_child(children, 1u, children.near_low, children.far_low, limit);
     uint k2 = meets_child(children, 2u, children.near_low, children.far_low, limit);
@@ -145,11 +145,11 @@ void visit_nearest(Ray ray, Course course, Slot slot, int ignored, precise inout
 }
 
 // Visits a slot on the way to any shape nearer than hit.distance, in no order: `group` lists children by bits.
-void visit_any(Ray ray, Course course, Slot slot, int ignored, precise inout Walk walk, precise inout Hit hit) {
+void visit_any(Ray ray, Course course, Slot slot, int ignored, inout Walk walk, inout Hit hit) {
     bool is_leaf = (slot.d.w & LEAF) != 0u;
     if (is_leaf) hit = meet_leaf(ray, course.turned, course.instance, slot, hit, ignored);
-    precise Children children = children_of(slot, course.grid);
-    precise float limit = farthest(ray, hit);
+    Children children = children_of(slot, course.grid);
+    float limit = farthest(ray, hit);
     uint met = uint(meets_child(children, 0u, children.near_low, children.far_low, limit) != NO_CHILD)
              | uint(meets_child(children, 1u, children.near_low, children.far_low, limit) != NO_CHILD) << 1u
              | uint(meets_child(children, 2u, children.near_low, children.far_low, limit) != NO_CHILD) << 2u
@@ -189,21 +189,21 @@ struct Among {
 };
 
 Among outside_instances(Ray ray) {
-    precise vec3 size = max(abs(ray.origin), abs(frame.tree_center));
-    precise float largest = larger(larger(size.x, size.y), size.z);
-    precise vec3 start = ray.origin - frame.tree_center;
+    vec3 size = max(abs(ray.origin), abs(frame.tree_center));
+    float largest = larger(larger(size.x, size.y), size.z);
+    vec3 start = ray.origin - frame.tree_center;
     return Among(start, start_among_triangles(ray), ray.direction, largest, frame.tree_cell, 0);
 }
 
 // The ray in the next tree: where the walk enters an instance, stays in its tree, or leaves it. All cases are
 // computed. The choice is made among few values, from which the rest follows.
 Among next_among(Among now, Among outside, Walk walk, Slot slot, Left left) {
-    precise Inward inward = inward_at(slot);
-    precise vec3 start = turned_in(inward, outside.start - inward.origin);
-    precise vec3 direction = turned_in(inward, outside.direction);
-    precise float largest = uintBitsToFloat(slot.d.y) * (outside.largest + inward.reach);
+    Inward inward = inward_at(slot);
+    vec3 start = turned_in(inward, outside.start - inward.origin);
+    vec3 direction = turned_in(inward, outside.direction);
+    float largest = uintBitsToFloat(slot.d.y) * (outside.largest + inward.reach);
     int instance = number_in(slot);
-    precise vec3 clear = instance == left.instance ? start + left.shift : start;
+    vec3 clear = instance == left.instance ? start + left.shift : start;
     bool goes_in = walk.goes_in;
     bool gets_out = walk.gets_out && now.instance > 0;
     return Among(
@@ -216,19 +216,19 @@ Among next_among(Among now, Among outside, Walk walk, Slot slot, Left left) {
 }
 
 Course course_of(Among among) {
-    precise float cells = 1.0 / among.cell;
-    precise TreeRay grid = ray_on_grid(among.start * cells, among.largest * cells, among.direction, among.cell);
+    float cells = 1.0 / among.cell;
+    TreeRay grid = ray_on_grid(among.start * cells, among.largest * cells, among.direction, among.cell);
     return Course(grid, sheared_along(among.clear, among.direction), among.instance);
 }
 
 Hit find_by_tree(Ray ray, Hit hit, int ignored, bool any) {
-    precise Course course = Course(tree_ray(ray), sheared(ray), 0);
-    precise Among outside = outside_instances(ray);
-    precise Among among = outside;
-    precise Left left = left_by(ray);
-    precise Walk walk = walk_from_root();
+    Course course = Course(tree_ray(ray), sheared(ray), 0);
+    Among outside = outside_instances(ray);
+    Among among = outside;
+    Left left = left_by(ray);
+    Walk walk = walk_from_root();
     while (walk.goes_on) {
-        precise Slot slot = slot_at(walk.place);
+        Slot slot = slot_at(walk.place);
         if (any) visit_any(ray, course, slot, ignored, walk, hit);
         else visit_nearest(ray, course, slot, ignored, walk, hit);
         if (HAS_INSTANCE) {

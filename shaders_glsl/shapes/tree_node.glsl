@@ -19,19 +19,19 @@ struct TreeRay {
 
 // `start` is relative to the middle of the grid, in cells; the rounding of its coordinates is relative to `largest`.
 TreeRay ray_on_grid(vec3 start, float largest, vec3 direction, float cell) {
-    precise vec3 place = start + HALF_GRID;
-    precise float slack = SLACK * larger(largest, 2.0 * HALF_GRID);
-    precise vec3 inverse = clamp(cell / direction, vec3(-STEEPEST), vec3(STEEPEST));
+    vec3 place = start + HALF_GRID;
+    float slack = SLACK * larger(largest, 2.0 * HALF_GRID);
+    vec3 inverse = clamp(cell / direction, vec3(-STEEPEST), vec3(STEEPEST));
     bvec3 is_down = lessThan(inverse, vec3(0.0));  // also right for zeros of both signs
-    precise vec3 shift = vec3(is_down.x ? -slack : slack, is_down.y ? -slack : slack, is_down.z ? -slack : slack);
+    vec3 shift = vec3(is_down.x ? -slack : slack, is_down.y ? -slack : slack, is_down.z ? -slack : slack);
     return TreeRay(place + shift, place - shift, inverse, is_down);
 }
 
 TreeRay tree_ray(Ray ray) {
-    precise vec3 center = frame.tree_center;
-    precise vec3 size = max(abs(ray.origin), abs(center));
-    precise float cells = 1.0 / frame.tree_cell;
-    precise float largest = larger(larger(size.x, size.y), size.z) * cells;
+    vec3 center = frame.tree_center;
+    vec3 size = max(abs(ray.origin), abs(center));
+    float cells = 1.0 / frame.tree_cell;
+    float largest = larger(larger(size.x, size.y), size.z) * cells;
     return ray_on_grid((ray.origin - center) * cells, largest, ray.direction, frame.tree_cell);
 }
 
@@ -48,8 +48,8 @@ struct Children {
 };
 
 Children children_of(Slot slot, TreeRay ray) {
-    precise vec3 corner = vec3(ivec3(slot.a.xyz & 0xFFFFFFu));
-    precise vec3 cell = uintBitsToFloat(slot.a.xyz >> 24u << 23u);
+    vec3 corner = vec3(ivec3(slot.a.xyz & 0xFFFFFFu));
+    vec3 cell = uintBitsToFloat(slot.a.xyz >> 24u << 23u);
     uvec3 start_low = uvec3(slot.a.w, slot.b.w, slot.c.w);
     uvec3 start_high = uvec3(slot.b.x, slot.c.x, slot.d.x);
     uvec3 end_low = uvec3(slot.b.y, slot.c.y, slot.d.y);
@@ -72,10 +72,10 @@ Children children_of(Slot slot, TreeRay ray) {
 // of the distances, with the number of the child in the last three; else NO_CHILD.
 uint meets_child(Children children, uint number, uvec3 near, uvec3 far, float limit) {
     uint shift = 8u * (number & 3u);
-    precise vec3 start = vec3(ivec3(near >> shift & 255u)) * children.cell + children.enter_from;
-    precise vec3 end = vec3(ivec3(far >> shift & 255u)) * children.cell + children.leave_from;
-    precise float enters = larger(larger(start.x, start.y), larger(start.z, 0.0));
-    precise float leaves = lesser(lesser(end.x, end.y), lesser(end.z, limit));
+    vec3 start = vec3(ivec3(near >> shift & 255u)) * children.cell + children.enter_from;
+    vec3 end = vec3(ivec3(far >> shift & 255u)) * children.cell + children.leave_from;
+    float enters = larger(larger(start.x, start.y), larger(start.z, 0.0));
+    float leaves = lesser(lesser(end.x, end.y), lesser(end.z, limit));
     bool is_met = enters <= leaves && number <= children.last;
     return is_met ? floatBitsToUint(enters) & ~7u | number : NO_CHILD;
 }

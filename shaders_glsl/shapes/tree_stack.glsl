@@ -6,12 +6,12 @@ struct TreeStack {
 };
 
 TreeStack empty_stack() {
-    precise uvec2 none = uvec2(0u);
+    uvec2 none = uvec2(0u);
     return TreeStack(none, none, none, none, none, none, none, none, none, none, none, none, none, none,
                      none, none);
 }
 
-void push_if(bool pushes, uvec2 entry, precise inout TreeStack s) {
+void push_if(bool pushes, uvec2 entry, inout TreeStack s) {
     if (TREE_STACK > 12) {
         s.e15 = pushes ? s.e14 : s.e15;
         s.e14 = pushes ? s.e13 : s.e14;
@@ -36,7 +36,7 @@ void push_if(bool pushes, uvec2 entry, precise inout TreeStack s) {
     s.e0 = pushes ? entry : s.e0;
 }
 
-void pop_if(bool pops, precise inout TreeStack s) {
+void pop_if(bool pops, inout TreeStack s) {
     s.e0 = pops ? s.e1 : s.e0;
     s.e1 = pops ? s.e2 : s.e1;
     s.e2 = pops ? s.e3 : s.e2;

@@ -18,18 +18,18 @@ const float LEAST_BIAS = 0.0078125;  // 1 / 128
 
 // Luma from 0 to 1: differences count as they do to the eye.
 float luma_of(vec3 rgb) {
-    precise float luma = dot(max(rgb, 0.0), vec3(0.299, 0.587, 0.114));
-    precise float mapped = luma / (1.0 + luma);
+    float luma = dot(max(rgb, 0.0), vec3(0.299, 0.587, 0.114));
+    float mapped = luma / (1.0 + luma);
     return mapped;
 }
 
 vec3 mapped_of(vec3 rgb) {
-    precise vec3 mapped = rgb / (1.0 + dot(max(rgb, 0.0), vec3(0.299, 0.587, 0.114)));
+    vec3 mapped = rgb / (1.0 + dot(max(rgb, 0.0), vec3(0.299, 0.587, 0.114)));
     return mapped;
 }
 
 vec3 unmapped(vec3 mapped) {
-    precise vec3 rgb = mapped / max(1.0 - dot(mapped, vec3(0.299, 0.587, 0.114)), 1e-6);
+    vec3 rgb = mapped / max(1.0 - dot(mapped, vec3(0.299, 0.587, 0.114)), 1e-6);
     return rgb;
 }
 

@@ -18,13 +18,13 @@ struct Fit {
 };
 
 Fit new_fit(vec3 radiance) {
-    precise mat4x3 slopes = mat4x3(radiance, vec3(0.0), vec3(0.0), vec3(0.0));
+    mat4x3 slopes = mat4x3(radiance, vec3(0.0), vec3(0.0), vec3(0.0));
     return Fit(slopes, vec4(START_COVARIANCE), mat4(1.0));
 }
 
 // Trace of the covariance.
 float trace(Fit fit) {
-    precise float sum = 0.0;
+    float sum = 0.0;
     for (int j = 0; j < 4; j += 1) sum += fit.spread[j] * dot(fit.factor[j], fit.factor[j]);
     return sum;
 }
@@ -32,27 +32,27 @@ float trace(Fit fit) {
 // Limits the trace. Where a fit learns nothing, endless forgetting would end in an overflow. Before that, the
 // first change of the light could give the slopes any value.
 Fit limited(Fit before) {
-    precise Fit fit = before;
-    precise float sum = trace(before);
+    Fit fit = before;
+    float sum = trace(before);
     if (sum > MOST_TRACE) fit.spread *= MOST_TRACE / sum;
     return fit;
 }
 
 // The fit after one more sample.
 Fit corrected(Fit before, vec4 p, vec3 radiance, float weight) {
-    precise Fit fit = before;
-    precise vec4 along = p * before.factor;  // U^T p
-    precise vec4 scaled = before.spread * along;
-    precise vec4 gain = vec4(0.0);
-    precise float sum = FORGETTING / weight;  // grows up to FORGETTING / weight + p^T P p
+    Fit fit = before;
+    vec4 along = p * before.factor;  // U^T p
+    vec4 scaled = before.spread * along;
+    vec4 gain = vec4(0.0);
+    float sum = FORGETTING / weight;  // grows up to FORGETTING / weight + p^T P p
     for (int j = 0; j < 4; j += 1) {
-        precise float next = sum + along[j] * scaled[j];
+        float next = sum + along[j] * scaled[j];
         fit.spread[j] = before.spread[j] * (sum / next) / FORGETTING;
         fit.factor[j] = before.factor[j] - gain * (along[j] / sum);
         gain += before.factor[j] * scaled[j];
         sum = next;
     }
-    precise vec3 error = radiance - before.slopes * p;
+    vec3 error = radiance - before.slopes * p;
     fit.slopes += outerProduct(error, gain / sum);
     return limited(fit);
 }

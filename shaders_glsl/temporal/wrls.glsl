@@ -21,22 +21,22 @@ struct Prediction {
 };
 
 float relative_distance(vec3 a, vec3 b) {
-    precise float least = min(length(a), length(b)) + LEAST_RADIANCE;
-    precise float distance = length(a - b) / least;
+    float least = min(length(a), length(b)) + LEAST_RADIANCE;
+    float distance = length(a - b) / least;
     return distance;
 }
 
 // A sample that is far from its feature is an outlier.
 float sample_weight(vec3 radiance, vec3 feature) {
-    precise float distance = relative_distance(radiance, feature) / WEIGHT_WIDTH;
-    precise float weight = exp(-distance * distance);
+    float distance = relative_distance(radiance, feature) / WEIGHT_WIDTH;
+    float weight = exp(-distance * distance);
     return max(weight, LEAST_WEIGHT);
 }
 
 // The model after the mean of `frames` first frames. Frames after the first show that the mean is right, but give no
 // information about slopes.
 Prediction first_prediction(vec3 radiance, float frames) {
-    precise Fit fit = new_fit(radiance);
+    Fit fit = new_fit(radiance);
     if (frames > 1.0) fit = corrected(fit, vec4(1.0, radiance), radiance, frames - 1.0);
     return Prediction(Model(radiance, 1.0, fit), radiance, 1.0);
 }
@@ -45,17 +45,17 @@ Prediction first_prediction(vec3 radiance, float frames) {
 // `lowest` to `highest`. The published predictor is the feature of this view, which contains the sample
 // itself; the delayed predictor is the feature of the frame before.
 Prediction predicted(Model before, vec3 radiance, vec3 lowest, vec3 highest, float frames, bool is_delayed) {
-    precise vec3 off = clamp(before.feature, lowest, highest) - radiance;
-    precise vec3 feature = radiance + exp(log(FEATURE_SHARE) * frames) * off;
-    precise vec3 predictor = feature;
+    vec3 off = clamp(before.feature, lowest, highest) - radiance;
+    vec3 feature = radiance + exp(log(FEATURE_SHARE) * frames) * off;
+    vec3 predictor = feature;
     if (is_delayed) {
         if (frames > 1.0) predictor = radiance + exp(log(FEATURE_SHARE) * (frames - 1.0)) * off;
         else predictor = before.feature;
     }
-    precise vec4 p = vec4(1.0, predictor);
-    precise float weight = sample_weight(radiance, predictor);
-    precise Fit fit = corrected(before.fit, p, radiance, weight * frames);
-    precise vec3 prediction = fit.slopes * p;
+    vec4 p = vec4(1.0, predictor);
+    float weight = sample_weight(radiance, predictor);
+    Fit fit = corrected(before.fit, p, radiance, weight * frames);
+    vec3 prediction = fit.slopes * p;
     bool is_known = is_finite(prediction) && is_finite(feature) && is_finite_fit(fit);
     if (!is_known) return first_prediction(radiance, frames);
     return Prediction(Model(feature, before.views + 1.0, fit), prediction, weight);

@@ -5,8 +5,8 @@ struct Rows {
 };
 
 Rows rows_of(Model model) {
-    precise mat4 factor = model.fit.factor;
-    precise Rows rows;
+    mat4 factor = model.fit.factor;
+    Rows rows;
     rows.row[0] = vec4(model.feature, model.views);
     for (int j = 0; j < 4; j += 1) rows.row[1 + j] = vec4(model.fit.slopes[j], model.fit.spread[j]);
     rows.row[5] = vec4(factor[1].x, factor[2].xy, 0.0);
@@ -15,7 +15,7 @@ Rows rows_of(Model model) {
 }
 
 Model model_of(Rows rows) {
-    precise Model model;
+    Model model;
     model.feature = rows.row[0].xyz;
     model.views = rows.row[0].w;
     model.fit.factor = mat4(1.0);

@@ -8,24 +8,24 @@ struct Coordinates {
 
 Coordinates triangle_coordinates(Ray ray, int shape) {
     ivec3 corners = triangle_of(shape).corners;
-    precise Corner corner = corner_at(corners.x);
-    precise vec3 shares = met_shares(ray, instance_of(shape), corner, corner_at(corners.y), corner_at(corners.z));
-    precise Uv a = uv_at(corners.x);
-    precise Uv b = uv_at(corners.y);
-    precise Uv c = uv_at(corners.z);
-    precise vec2 first = a.first + shares.y * (b.first - a.first) + shares.z * (c.first - a.first);
-    precise vec2 second = a.second + shares.y * (b.second - a.second) + shares.z * (c.second - a.second);
+    Corner corner = corner_at(corners.x);
+    vec3 shares = met_shares(ray, instance_of(shape), corner, corner_at(corners.y), corner_at(corners.z));
+    Uv a = uv_at(corners.x);
+    Uv b = uv_at(corners.y);
+    Uv c = uv_at(corners.z);
+    vec2 first = a.first + shares.y * (b.first - a.first) + shares.z * (c.first - a.first);
+    vec2 second = a.second + shares.y * (b.second - a.second) + shares.z * (c.second - a.second);
     return Coordinates(first, second);
 }
 
 Coordinates coordinates_of(Ray ray, Surface surface) {
     if (HAS_MESH && is_triangle(surface.shape)) return triangle_coordinates(ray, surface.shape);
     if (HAS_SPHERE && up_to_sphere(surface.shape)) {
-        precise vec2 place = vec2(turns_of(surface.normal), descent_of(surface.normal));
+        vec2 place = vec2(turns_of(surface.normal), descent_of(surface.normal));
         return Coordinates(place, place);
     }
-    precise Axes axes = axes_at(surface.shape - first_plane());
-    precise vec3 offset = surface.position - axes.origin;
-    precise vec2 place = vec2(dot(axes.u, offset), dot(axes.v, offset));
+    Axes axes = axes_at(surface.shape - first_plane());
+    vec3 offset = surface.position - axes.origin;
+    vec2 place = vec2(dot(axes.u, offset), dot(axes.v, offset));
     return Coordinates(place, place);
 }

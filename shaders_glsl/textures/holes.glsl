@@ -17,12 +17,12 @@ Ray beyond(Ray ray, Surface surface) {
 }
 
 // The nearest surface that is no hole, seen from `ray`. Afterwards the ray starts at the last hole before that surface.
-Hit solid_hit(precise inout Ray ray, float limit, int ignored) {
+Hit solid_hit(inout Ray ray, float limit, int ignored) {
     uint passed = 0u;
     for (; passed <= MOST_HOLES; passed += 1u) {
-        precise Hit hit = find_hit(ray, limit, ignored, false);
+        Hit hit = find_hit(ray, limit, ignored, false);
         if (hit.shape == NO_SHAPE) return hit;
-        precise Surface surface = surface_at(ray, hit);
+        Surface surface = surface_at(ray, hit);
         if (!is_hole(material_of(ray, surface), passed)) return hit;
         if (limit < FAR) limit -= hit.distance;
         ray = beyond(ray, surface);
@@ -34,7 +34,7 @@ Hit solid_hit(precise inout Ray ray, float limit, int ignored) {
 // Whether a ray to a flat lamp sees that lamp, in a place that it may share with other surfaces.
 bool shows(Ray ray, int lamp) {
     if (!HAS_HOLE) return find_hit(ray, FAR, NO_SHAPE, false).shape == lamp;
-    precise Ray seen = ray;
+    Ray seen = ray;
     return solid_hit(seen, FAR, NO_SHAPE).shape == lamp;
 }
 
@@ -43,6 +43,6 @@ bool occluded(Ray ray, float limit, int ignored) {
     if (COUNT_RAYS) rays_so_far += 1.0;
     if (HAS_COINCIDENT && ignored != NO_SHAPE && !(HAS_SPHERE && up_to_sphere(ignored))) return !shows(ray, ignored);
     if (!HAS_HOLE) return find_hit(ray, limit, ignored, true).shape != NO_SHAPE;
-    precise Ray seen = ray;
+    Ray seen = ray;
     return solid_hit(seen, limit, ignored).shape != NO_SHAPE;
 }

@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from glrt.gpu.glsl import Source
+from glrt.gpu.glsl import Source, read, shader_files, with_precise_floats
 from glrt.rendering.pipelines import Tier
 from tests.support.builders import EVERYTHING
 from tests.support.kernel_text import written_for
@@ -39,6 +39,42 @@ def computed_returns(glsl: str) -> list[str]:
     bodies = [match[1] for match in re.finditer(head, text, re.MULTILINE | re.DOTALL)]
     values = [value for body in bodies for value in re.findall(r"return ([^;]+);", body)]
     return [value for value in values if re.search(r"[\w)\]] [-+*/] [-\w(]", value)]
+
+
+def test_the_loader_qualifies_floats_and_nothing_else() -> None:
+    given = """
+struct Ray { vec3 origin; };
+struct Turn {
+    float angle;
+};
+layout(std430) buffer Rays {
+    vec3 starts[];
+};
+Ray met = Ray(vec3(0.0));
+const float SCALE = 2.0;
+float turned(vec3 first, inout float angle, inout int count,
+        inout Ray ray) {
+    float half_angle;
+    int i = 0;
+    for (float t = 0.0; t < 1.0; t += 0.5) i += 1;
+    // Ray names; float x = 1;
+    vec3[2] both = vec3[2](first, first);
+    mat3x4 m = mat3x4(1.0);
+    return half_angle;
+}
+vec3 after;
+"""
+    wanted = given
+    for declared in ("float half_angle", "float t =", "vec3[2] both", "mat3x4 m", "Ray met"):
+        wanted = wanted.replace(declared, f"precise {declared}")
+    for changed in ("inout float angle", "inout Ray ray"):
+        wanted = wanted.replace(changed, f"precise {changed}")
+    assert with_precise_floats(given) == wanted
+    assert with_precise_floats(wanted) == wanted
+
+
+def test_no_shader_file_says_precise_itself() -> None:
+    assert not [str(file) for file in shader_files() if "precise " in read(str(file))]
 
 
 @pytest.mark.parametrize("way", [("generic", 1 << 16), ("generic", 0), ("baked", 1 << 16)])

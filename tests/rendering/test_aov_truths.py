@@ -99,8 +99,8 @@ def test_blocks_at_an_edge_count_where_a_sample_of_theirs_meets_something(
 # --- single rays ---------------------------------------------------------------------------------
 
 RAY = """
-    precise Sampler rng = sampler_at(ivec2(pixel), 0, frame.seed);
-    precise Ray ray = camera_ray(frame.camera, vec2(frame.size), pixel, rng);"""
+    Sampler rng = sampler_at(ivec2(pixel), 0, frame.seed);
+    Ray ray = camera_ray(frame.camera, vec2(frame.size), pixel, rng);"""
 
 
 def camera_rays(call_glsl: CallGlsl, scene: Scene) -> tuple[Array, Array]:

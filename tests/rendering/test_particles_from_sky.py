@@ -127,8 +127,8 @@ def test_the_sky_is_shared_by_three_ways(call_glsl: CallGlsl) -> None:
         "particle_weight(rho / pdf_emission(SKY_LIGHT, p, -ray.direction, NOT_AIMED), kappa)",
     ]
     setup = """
-    precise vec3 p = vec3(0.1, -0.5, -1.2);
-    precise Ray ray = Ray(p, normalized(vec3(0.3, 1.0, 0.2)), NO_SHAPE, false);
+    vec3 p = vec3(0.1, -0.5, -1.2);
+    Ray ray = Ray(p, normalized(vec3(0.3, 1.0, 0.2)), NO_SHAPE, false);
     LightSample light = LightSample(ray, FAR, kappa * scattered, vec3(0.0), 0, 0, NO_LIGHT);"""
     inputs = {"kappa": kappa, "rho": 0.01 * rho, "scattered": scattered}
     shares = [

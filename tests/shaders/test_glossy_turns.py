@@ -31,17 +31,17 @@ KINDS: dict[str, dict[str, Any]] = {
 }
 COUNT = 20_000
 SETUP = """
-    precise vec3 facing = vec3(0.0, 0.0, 1.0);
-    precise Normals normals = Normals(facing, bent);
-    precise Vertex vertex = vertex_of(frame_around(facing), wi, material_at(0), outside == 1);
-    precise Sampler rng = make_sampler(uint(i) * 9781u + 7u);
-    precise Particle particle = start_particle(rng);
+    vec3 facing = vec3(0.0, 0.0, 1.0);
+    Normals normals = Normals(facing, bent);
+    Vertex vertex = vertex_of(frame_around(facing), wi, material_at(0), outside == 1);
+    Sampler rng = make_sampler(uint(i) * 9781u + 7u);
+    Particle particle = start_particle(rng);
     particle.path.ray.direction = -wi;
     particle.kappa = 1.0;
-    precise Scattering next = scatter_particle(vertex, normals, rng);
+    Scattering next = scatter_particle(vertex, normals, rng);
     turn_particle(particle, vertex, normals, next);
-    precise Vertex met = vertex_from(vertex, normals, next.direction);
-    precise Normals there = normals_towards(normals, next.direction);"""
+    Vertex met = vertex_from(vertex, normals, next.direction);
+    Normals there = normals_towards(normals, next.direction);"""
 
 
 def scattered(

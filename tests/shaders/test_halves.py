@@ -8,8 +8,8 @@ from tests.conftest import CallGlsl
 def test_a_half_holds_whole_observations(call_glsl: CallGlsl) -> None:
     """The points of a block belong together: in both halves they would hide what they miss."""
     setup = """
-        precise Layers layers = empty_layers();
-        precise Path path = start_path(Ray(vec3(0.0), vec3(0.0, 0.0, -1.0), NO_SHAPE, false));
+        Layers layers = empty_layers();
+        Path path = start_path(Ray(vec3(0.0), vec3(0.0, 0.0, -1.0), NO_SHAPE, false));
         add_layers(layers, path, index);
     """
     index = np.arange(96)

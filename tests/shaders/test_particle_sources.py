@@ -195,8 +195,8 @@ def test_the_sun_is_shared_by_three_ways(call_glsl: CallGlsl) -> None:
         "particle_weight(rho / pdf_emission(SUN_LIGHT, p, -ray.direction, NOT_AIMED), kappa)",
     ]
     setup = """
-    precise vec3 p = vec3(0.1, -0.2, -3.1);
-    precise Ray ray = Ray(p, frame.sun_direction, NO_SHAPE, false);
+    vec3 p = vec3(0.1, -0.2, -3.1);
+    Ray ray = Ray(p, frame.sun_direction, NO_SHAPE, false);
     LightSample light = LightSample(ray, FAR, kappa * scattered, vec3(0.0), 0, 0, SUN_LIGHT);"""
     inputs = {"kappa": kappa, "rho": 500 * rho, "scattered": scattered}
     shares = [

@@ -116,11 +116,11 @@ def test_a_particle_arrives_where_the_camera_looks(
         scene=place,
         options={**ON, "width": 64, "height": 64},
         setup="""
-    precise Sampler rng = make_sampler(uint(i) * 9781u);
-    precise Sampler again = rng;
-    precise Ray ray = camera_ray(frame.camera, vec2(frame.size), pixel, rng);
-    precise vec2 jitter = next_2d(again);
-    precise vec2 lens = vec2(0.0);
+    Sampler rng = make_sampler(uint(i) * 9781u);
+    Sampler again = rng;
+    Ray ray = camera_ray(frame.camera, vec2(frame.size), pixel, rng);
+    vec2 jitter = next_2d(again);
+    vec2 lens = vec2(0.0);
     if (HAS_LENS) lens = sample_disk(next_2d(again));""",
         pixel=pixels,
     )
@@ -139,9 +139,9 @@ def test_the_three_ways_share_all_light(call_glsl: CallGlsl) -> None:
         "particle_weight(rho / pdf_emission(0, p, -ray.direction, NOT_AIMED), kappa)",
     ]
     setup = """
-    precise vec3 p = vec3(0.1, 1.0, -3.1);
-    precise vec3 towards = normalized(vec3(0.1, 1.0, 0.2));
-    precise Ray ray = Ray(p - 1.5 * towards, towards, NO_SHAPE, false);
+    vec3 p = vec3(0.1, 1.0, -3.1);
+    vec3 towards = normalized(vec3(0.1, 1.0, 0.2));
+    Ray ray = Ray(p - 1.5 * towards, towards, NO_SHAPE, false);
     LightSample light = LightSample(ray, 1.5, kappa * scattered, vec3(0.0), 0, 0, 0);"""
     inputs = {"kappa": kappa, "rho": rho, "scattered": scattered}
     shares = [

@@ -11,8 +11,8 @@ STREAM = """
 Sampler rng = make_sampler(seed);
 Stream stream = empty_stream();
 for (int i = 0; i < {count}; i += 1) {{
-    precise float x = next_independent(rng);
-    precise float u = next_independent(rng);
+    float x = next_independent(rng);
+    float u = next_independent(rng);
     Source source = Source(vec3(0.0), vec3(0.0), vec3(x), i);
     offer(stream, source, luminance(source.light) / float({count}), i, u);
 }}
@@ -45,7 +45,7 @@ def test_candidates_are_kept_as_often_as_they_weigh(
     """This holds in any order, and a candidate without a weight is never kept."""
     setup = "Sampler rng = make_sampler(seed); Stream stream = empty_stream();"
     for number, weight in enumerate(weights):
-        setup += f"precise float u{number} = next_independent(rng);"
+        setup += f"float u{number} = next_independent(rng);"
         setup += f"offer(stream, no_source(), {float(weight)}, {number}, u{number});"
     seeds = np.arange(LANES, dtype=np.uint32) + np.uint32(17)
     kept = call_glsl("float(stream.origin)", setup=setup, seed=seeds).astype(int)

@@ -19,10 +19,10 @@ KINDS = [(1, "falling"), (1, "lower"), (2, "falling"), (2, "lower")]
 KINDS += [(chords, "upper") for chords in (0, 1, 2)]
 STEP = 1e-6
 ARC = """
-    precise Sphere ball = sphere_at(0);
+    Sphere ball = sphere_at(0);
     ball.center = vec3(0.2, -0.1, 0.3);
     ball.radius = 0.7;
-    precise Arc arc = arc_of(eye, vertex, ball, ior, {});"""
+    Arc arc = arc_of(eye, vertex, ball, ior, {});"""
 CENTER, RADIUS = np.array([0.2, -0.1, 0.3]), 0.7
 
 
@@ -201,7 +201,7 @@ def test_a_way_runs_where_rays_do(call_glsl: CallGlsl, chords: int) -> None:
         **found.inputs(),
     }
     true = {"near": found.way.near, "far": found.way.far, "direction": found.start}
-    way = "precise Way way = way_of(arc, ball.center, crossing_of(arc, sine), sense);"
+    way = "Way way = way_of(arc, ball.center, crossing_of(arc, sine), sense);"
     for name, expected in true.items():
         setup = ARC.format(chords) + way
         got = call_glsl(f"way.{name}", "vec3", setup=setup, sense=sense_of(found), **usual)

@@ -65,7 +65,7 @@ def starts(call_glsl: CallGlsl, files: str, place: Scene, what: str, kind: str) 
         scene=place,
         options={**ON, "aimed": 0.5},
         setup="""
-    precise Sampler rng = make_sampler(uint(i) * 9781u + 7u);
-    precise Particle particle = start_particle(rng);""",
+    Sampler rng = make_sampler(uint(i) * 9781u + 7u);
+    Particle particle = start_particle(rng);""",
         n=np.zeros(200_000),
     )

@@ -140,7 +140,7 @@ def test_light_of_the_sky_and_the_sun_is_left_to_paths(context: Context) -> None
 def test_what_a_surface_has_found_is_not_hidden_from_it(context: Context) -> None:
     """A point lies on a surface up to rounding, which would hide it in one of a hundred cases."""
     text = read(RESAMPLING)
-    line = "    precise Reservoir result = own;\n"
+    line = "    Reservoir result = own;\n"
     told = "path.radiance = vec3(own.weight > 0.0 ? 1.0 : 0.0, hidden ? 1.0 : 0.0, 0.0);"
     asked = "bool hidden = own.weight > 0.0 && is_hidden(own.at, own.kept);"
     assert text.count(line) == 1

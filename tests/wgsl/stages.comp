@@ -21,11 +21,11 @@ void put_vector(vec3 v) {
 }
 
 void put_hit(Ray ray) {
-    precise Hit hit = closest_hit(ray);
+    Hit hit = closest_hit(ray);
     put(uint(hit.shape));
     put_float(hit.distance);
     if (hit.shape == NO_SHAPE) return;
-    precise Surface surface = surface_at(ray, hit);
+    Surface surface = surface_at(ray, hit);
     put(uint(surface.material));
     put_vector(surface.position);
     put_vector(surface.normal);
@@ -45,8 +45,8 @@ void main() {
     int start = pixel * WORDS;
     if (pixel >= frame.size.x * frame.size.y) return;
     ivec2 place = ivec2(pixel % frame.size.x, pixel / frame.size.x);
-    precise Sampler rng = sampler_at(place, frame.first_sample, frame.seed);
-    precise Path path = camera_path(place, rng);
+    Sampler rng = sampler_at(place, frame.first_sample, frame.seed);
+    Path path = camera_path(place, rng);
     at = start + RAY_WORD;
     put_vector(path.ray.origin);
     put_vector(path.ray.direction);

@@ -57,7 +57,7 @@ _WORDS = {f"{name.upper()}_WORD": field[1] // 4 for name, field in (STAGE.fields
 _CONSTANTS = {**_WORDS, "WORDS": STAGE.itemsize // 4}
 _GROUP = 64  # work group of stages.comp
 # Every number drawn goes through unit_float, in both languages.
-_DRAWS = {"float": "precise float value = float(x >> 8u)", "f32": "return f32(x >> 8u)"}
+_DRAWS = {"float": "float value = float(x >> 8u)", "f32": "return f32(x >> 8u)"}
 _RECORD = "digest = pcg_hash(digest ^ x);\n    draws += 1u;\n    "
 
 

@@ -13,7 +13,7 @@ from glrt.settings import Settings
 SAMPLES = 32
 COUNTING = Variant({"COUNT_RAYS": True})  # renders the number of rays in place of radiance
 _FOLLOWED, _SHADOW = "shapes/find_hit.glsl", "textures/holes.glsl"
-_PROBES, _LOOKUP = "probes/query.glsl", "precise ProbeLight found ="
+_PROBES, _LOOKUP = "probes/query.glsl", "ProbeLight found ="
 _COUNT = "if (COUNT_RAYS) rays_so_far += 1.0;"
 
 

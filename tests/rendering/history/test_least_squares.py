@@ -151,10 +151,10 @@ vec3 frame_at(int pixel, int frame) {
     return vec3(values_[first], values_[first + 1], values_[first + 2]);
 }
 Prediction after_all(int pixel) {
-    precise Prediction last = first_prediction(frame_at(pixel, 0), float(FIRST));
+    Prediction last = first_prediction(frame_at(pixel, 0), float(FIRST));
     for (int frame = 1; frame < FRAMES; frame += 1) {
-        precise vec3 y = frame_at(pixel, frame);
-        precise Model before = last.model;
+        vec3 y = frame_at(pixel, frame);
+        Model before = last.model;
         last = predicted(before, y, y - float(REACH), y + float(REACH), float(WEIGHT), IS_DELAYED);
     }
     return last;
@@ -176,7 +176,7 @@ def glsl_wrls(
     count, n, _ = samples.shape
     sizes = {"FRAMES": count, "COUNT": n, "REACH": reach, "WEIGHT": frames, "FIRST": first}
     setup, constants = (
-        "precise Prediction last = after_all(pixel);",
+        "Prediction last = after_all(pixel);",
         {**sizes, "IS_DELAYED": is_delayed},
     )
     files = [*FILES, "temporal/wrls_rows.glsl"]

@@ -26,7 +26,7 @@ PIXEL = 1.0 / SIZE[1]
 SKY: dict[str, Any] = {"background": {"bottom": [0.1, 0.2, 0.3], "top": [3.0, 2.0, 1.0]}}
 RECURSION = """
 float weight_of(int one, int frames, float old) {
-    precise vec4 known = vec4(vec3(one == 0 ? 1.0 : 0.0), old);
+    vec4 known = vec4(vec3(one == 0 ? 1.0 : 0.0), old);
     for (int frame = 1; frame < frames; frame += 1) {
         known = blended(known, vec3(frame == one ? 1.0 : 0.0), 1.0, 0.1);
     }
