@@ -27,7 +27,7 @@ Programs, `python -m bench.NAME`; `--help` lists their options:
 - gallery: every scene that comes with glrt, as pictures and a page of them
 - weekend: writes scenes/weekend.toml
 
-What they share:
+They share:
 
 - program: options, the description of the machine, and errors in one paragraph
 - shader_edits: kernels with edited shader sources

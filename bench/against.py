@@ -89,7 +89,7 @@ def _started(
     environment = environment_of(checkout, folder)
     if threads:
         environment["LP_NUM_THREADS"] = str(threads)
-    # -P: modules beside the program must not shadow those of the standard library.
+    # -P: modules next to the program must not shadow those of the standard library.
     process = Process([sys.executable, "-P", str(PROGRAM)], folder / "log", environment)
     stack.callback(process.close)
     side = Side(name, process)

@@ -125,7 +125,7 @@ def _redrawn(ours: Runs, theirs: Runs, level: Array) -> tuple[Redrawn, Redrawn]:
 
 
 def over_scenes(leads: Sequence[Redrawn]) -> Factor:
-    """The geometric mean over scenes, which are drawn anew in each resample, as rounds are."""
+    """The geometric mean over scenes, which are drawn again in each resample, as rounds are."""
     rng = np.random.default_rng(0)
     logs = np.log([lead.values for lead in leads])
     scenes = rng.integers(len(leads), size=(REDRAWN, len(leads)))

@@ -1,4 +1,4 @@
-"""What a denoiser gains, and whether it knows its error: the tables of docs/results/denoised.md.
+"""How much a denoiser gains, and whether it knows its error: tables of docs/results/denoised.md.
 
 `python -m bench.denoised` renders six scenes and a caustic at 64 samples by 16 seeds, denoises each
 picture, and compares plain and denoised pictures with the truth from two renders of other seeds:
@@ -49,8 +49,8 @@ class Found(NamedTuple):
     scene: str
     plain: float  # relative RMS error of the plain pictures
     denoised: float
-    estimate: float  # the root mean square of what the pictures told
-    spread: float  # of what single pictures told, as a share of the true error
+    estimate: float  # the root mean square of the estimates of the pictures
+    spread: float  # of the estimates of single pictures, as a share of the true error
     blocks: int
     worse: int  # blocks of them
 
@@ -78,7 +78,7 @@ def pictures(name: str, by: str, size: int, seeds: int, context: Context) -> Ite
 
 
 def judged(name: str, images: Iterator[Image], truth: Truth) -> Found:
-    """Errors, what was told of them, and harm by blocks: more than chance over the seeds."""
+    """Errors, their estimates, and harm by blocks: more than chance over the seeds."""
     errors, told, harm = [], [], []
     for image in images:
         shown = image.denoised()

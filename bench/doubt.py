@@ -3,10 +3,10 @@
 `python -m bench.doubt` prints the table of docs/results/stress.md: pictures of random scenes
 (bench/scenes.py) and of scenes made to fool the estimate (bench/fooling_scenes.py), 48 x 36 pixels,
 at 64 and 256 samples, against two halves of 1,024 samples by `mis` of other seeds: the product of
-the distances to both is the squared error without the noise of the truth. What is seen directly of
-lamps that few of those samples meet is taken from 4,096 samples a half without bounces. The scenes
-are drawn from a seed that is a hash of the code of the judgement, so none of them can have been
-used to choose it.
+the distances to both is the squared error without the noise of the truth. Directly seen light
+of lamps that few of those samples meet is taken from 4,096 samples a half without bounces. The
+scenes are drawn from a seed that is a hash of the code of the judgement, so none of them can have
+been used to choose it.
 """
 
 import hashlib
@@ -158,7 +158,7 @@ def true_ratio(image: Image, halves: Sequence[Array]) -> float | None:
 
 
 def row(name: str, found: Sequence[Finding]) -> list[str]:
-    """Of the table."""
+    """A row of the table."""
     wrong = [finding for finding in found if finding.ratio > WRONG]
     right = [finding for finding in found if finding.is_right]
     missed = sum(not finding.is_doubtful for finding in wrong)

@@ -1,8 +1,9 @@
 """Whether the picture follows a drag: `python -m bench.drags`.
 
 In the window each frame does a step of a drag: of the camera, of an object by its handles, of the
-bounce limit, of a material's colour. Told is how many pictures a second differ from the one before
-them on the screen, and how long one stays. Without a display a virtual X server, Xvfb, is used.
+bounce limit, of a material's colour. The bench reports how many pictures a second differ from
+the one before them on the screen, and how long one stays. Without a display a virtual X server,
+Xvfb, is used.
 """
 
 import argparse
@@ -39,7 +40,7 @@ Step = Callable[[Any, int], None]
 
 
 class Drag(NamedTuple):
-    """What came to the screen during a drag."""
+    """The pictures that came to the screen during a drag."""
 
     what: str
     seconds: float
@@ -111,7 +112,7 @@ def measure(
 
 
 def steps_of(scene: Scene) -> dict[str, Step]:
-    """What a frame of each drag does, by its number."""
+    """The step that each drag does in a frame, by the number of the frame."""
     ball = next(n for n, shape in enumerate(scene.objects) if shape.shape == "sphere")
     matte = next(n for n, m in scene.materials.items() if m.type == "lambertian")
 
@@ -163,7 +164,7 @@ def _dragged(window: Any, what: str, step: Step, seconds: float, drags: list[Dra
 
 
 def _fingerprint(window: Any) -> int:
-    """Of the picture on the screen."""
+    """A checksum of the picture on the screen."""
     texture = window.app.picture._texture
     return zlib.crc32(texture.read()) if texture else 0
 

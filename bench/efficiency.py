@@ -52,7 +52,7 @@ SWITCHES = {
     },
 }
 SCENES = ("cornell", "room", "lamps", "sky", "metals", "lens")
-SAMPLES = 32  # per pixel of a run, unless told: two blocks of Sobol' points
+SAMPLES = 32  # per pixel of a run, by default: two blocks of Sobol' points
 
 
 class Row(NamedTuple):
@@ -72,7 +72,7 @@ class Runs:
     """The runs of one variant."""
 
     def __init__(self, renderer: Renderer, samples: int) -> None:
-        """Without runs yet, each of which will have so many `samples` a pixel."""
+        """Without runs yet; each will have so many `samples` a pixel."""
         self.renderer = renderer
         self.samples = samples
         self.seconds: list[float] = []
@@ -205,7 +205,7 @@ def _rows(name: str, runs: Mapping[str, Runs]) -> Iterator[Row]:
 
 
 def _weights(pictures: Sequence[Sequence[NDArray[np.float32]]]) -> list[float]:
-    """Of each variant in the mean of all, by how little its pictures vary; their sum is 1."""
+    """The weight of each variant in the mean of all, from its variance; the sum is 1."""
     spreads = [float(np.var(of_one, axis=0, dtype=np.float64).mean()) for of_one in pictures]
     inverses = [1 / max(spread, 1e-300) for spread in spreads]
     return [inverse / sum(inverses) for inverse in inverses]

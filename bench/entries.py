@@ -2,9 +2,9 @@
 
 Mitsuba renders with its own materials; its `roughconductor` does not correlate the shadowing of
 both directions, as glrt does, so that pictures of very rough metal differ: errors are taken about
-each renderer's own mean. Of roulette or none, and of independent or multijittered samples, it gets
-the pair that is fastest in a trial; of planes of two triangles and of one-sided lamps, those that
-do not show.
+each renderer's own mean. A trial finds its fastest settings: roulette
+or none, independent or multijittered samples. Mitsuba gets planes of two triangles and one-sided
+lamps, where these do not show.
 """
 
 import sys
@@ -32,7 +32,7 @@ PEERS = {
 
 
 def request(scene: Scene, size: int, **asked: Any) -> Request:
-    """A request for a scene up to its own limit of bounces, whose samples are told later."""
+    """A request for a scene up to its own limit of bounces; its samples are set later."""
     sides = {"width": size, "height": size}
     return Request.of(scene, **sides, bounces=scene.render.bounces, samples=1, seed=0, **asked)
 

@@ -111,7 +111,7 @@ def glass(dice: Dice) -> Scene:
 
 
 def near_lamps(dice: Dice) -> Scene:
-    """Lamps that nearly touch the floor, beside a ball."""
+    """Lamps that nearly touch the floor, next to a ball."""
     objects, materials = [_ball(dice, 0.0, "matte")], {}
     materials["matte"] = {"type": "lambertian", "color": [0.6, 0.4, 0.3]}
     for number, x in enumerate((-1.0, 1.0)):

@@ -191,7 +191,7 @@ footer { margin-top: 3rem; }
 
 
 def _page(pictures: Sequence[Picture]) -> str:
-    """The gallery as one HTML file beside its pictures."""
+    """The gallery as one HTML file next to its pictures."""
     drivers = ", ".join(dict.fromkeys(picture.driver for picture in pictures))
     foot = f"</main>\n<footer>Rendered by glrt {VERSION} on {escape(drivers)}.</footer>\n</html>\n"
     return _HEAD + "".join(map(_figure, pictures)) + foot

@@ -1,6 +1,6 @@
 """Speed and memory by the number of triangles: a displaced ball in an open matte box under a sky.
 
-The surface is the same whatever the number, but for its finest bumps, so that pictures are equally
+The surface is the same whatever the number, except its finest bumps, so that pictures are equally
 hard. Rounds are interleaved; a ratio is that of two runs of the same round.
 """
 
@@ -166,7 +166,7 @@ def measure(context: Context, steps: Sequence[int], size: int, rounds: int) -> l
 
 
 def _seconds(renderer: Renderer) -> float:
-    """Of one sample of every pixel."""
+    """The seconds of one sample of every pixel."""
     renderer.restart()
     start = time.perf_counter()
     renderer.render(4)

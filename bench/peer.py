@@ -35,7 +35,7 @@ FORGOTTEN = 24 * 3600.0  # seconds since the last picture after which a folder i
 
 @dataclass(frozen=True)
 class Request:
-    """What to render; a renderer ignores the fields that it does not support."""
+    """A picture to render; a renderer ignores the fields that it does not support."""
 
     scene: str  # as JSON
     width: int

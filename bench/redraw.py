@@ -1,10 +1,10 @@
 """How much clearer the picture is while the camera moves: `python -m bench.redraw TASK`.
 
-`orbit` plays the same orbit by several modes and tells the error of what is on the screen, and the
-processor seconds of a frame; `film FILE.webp` shows modes side by side; `bias` tells how much
-darker or brighter they show a still camera, `psnr` how much nearer they are to a reference than the
-film of two samples. There is no window. Seconds are the process's own:
-beside other work they tell ratios alone.
+`orbit` plays the same orbit by several modes and reports the error of the picture on the screen,
+and the processor seconds of a frame; `film FILE.webp` shows modes side by side; `bias` reports how
+much darker or brighter they show a still camera, `psnr` how much nearer they are to a reference
+than the film of two samples. There is no window. Seconds are the process's own: next to other work
+only their ratios mean something.
 """
 
 import argparse

@@ -215,7 +215,7 @@ def _add_lamp(builder: Builder, name: str, flux: float) -> None:
 
 
 def _bright_area(shape: Table) -> float:
-    """Of a lamp; both sides of a flat one."""
+    """The area of a lamp that shines; both sides of a flat one."""
     if shape["shape"] == "quad":
         return 2 * float(np.linalg.norm(np.cross(shape["edge_u"], shape["edge_v"])))
     sides = 4 if shape["shape"] == "sphere" else 2

@@ -35,13 +35,13 @@ class Truth(NamedTuple):
         return self.shared(radiance, radiance)
 
     def shared(self, one: NDArray[np.float32], other: NDArray[np.float32]) -> float:
-        """What the relative errors of two pictures have in common, squared: no noise of theirs."""
+        """The square of the relative error that two pictures share, without the noise of either."""
         errors = (one.astype(np.float64) - self.first) * (other.astype(np.float64) - self.second)
         return float((errors / (self.mean**2 + DARK * self.mean.mean() ** 2)).mean())
 
     @property
     def mean(self) -> Floats:
-        """Of both renders."""
+        """The mean of both renders."""
         return (self.first + self.second) / 2
 
 

@@ -1,8 +1,8 @@
 """Renderers that take turns: one warm process at a time, and whether its speed is that of alone.
 
 Between its turns a process is stopped with all of its threads. Its rate in turns is held against
-its rate alone: of a process beside which there is no other, in renders twice as long, one after the
-other. Where both differ by more than a tenth, neither describes the renderer.
+its rate alone: that of the only process, in renders twice as long, one after the other. Where both
+differ by more than a tenth, neither describes the renderer.
 """
 
 import statistics
@@ -113,7 +113,7 @@ def taking_turns(
 
 
 def pace(runs: Runs, alone: float) -> Pace:
-    """The pace of a renderer in turns, beside its rate alone."""
+    """The pace of a renderer in turns, with its rate alone."""
     return Pace(float(np.median(runs.rates)), alone)
 
 

@@ -59,7 +59,7 @@ LEVEL_SECONDS = 4.0
 
 
 class Result(NamedTuple):
-    """What a scene gave; pairs are of glrt and of Mitsuba."""
+    """The figures of a scene; pairs are of glrt and of Mitsuba."""
 
     seed: int
     about: str
@@ -136,7 +136,7 @@ def result(
 
 
 def _about(scene: Scene) -> str:
-    """What is in a scene, in a few words."""
+    """The contents of a scene, in a few words."""
     lamps = sum(any(scene.emission_of(item)) for item in scene.objects)
     kinds = {scene.materials[item.material].type for item in scene.objects}
     names = {"metal": "metal", "dielectric": "glass"}

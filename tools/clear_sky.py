@@ -20,7 +20,7 @@ _MAGIC, _DOUBLE = b"tensor_file\0", 11
 
 
 def coefficients() -> dict[str, Array]:
-    """What the file holds.
+    """The arrays of the file.
 
     shape: (10 turbidities, 2 albedos, 6 control points, 3 channels, 9) of the sky's distribution;
     radiance: (10, 2, 6, 3), its factor; sun: (10 turbidities, 45 pieces, 3 channels, 4) of the

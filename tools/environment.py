@@ -1,7 +1,7 @@
 """The Python environment `.venv`: made, brought up to date, or found to be ready.
 
 Its state file is there from the first moment and says `unfinished` while something changes, so
-that whatever was interrupted is made anew. An environment without a state file was made by hand:
+that an interrupted environment is made again. An environment without a state file was made by hand:
 it is taken over if it works.
 """
 
@@ -98,7 +98,7 @@ def _python() -> str:
 
 
 def _origin(root: str) -> State:
-    """What an environment is made from; scripts inside it hold the path of the checkout."""
+    """The sources of an environment; scripts inside it hold the path of the checkout."""
     with open(os.path.join(root, "pyproject.toml"), "rb") as file:
         project = hashlib.sha256(file.read()).hexdigest()
     return {"python": _python(), "root": root, "project": project}

@@ -1,4 +1,4 @@
-"""What works on this machine, found by loading it: package databases do not know of drivers.
+"""Find what works on this machine by loading it: package databases do not know of drivers.
 
 A probe returns "" when the thing works, else the reason why it does not. Probes that start a
 driver run as `python probes.py egl|osmesa|vulkan` in a process of their own, which a driver may

@@ -70,7 +70,7 @@ def class_page(public: type) -> Iterator[str]:
 
 
 def members(public: type) -> Iterator[tuple[str, object]]:
-    """What a class has itself; beside models also what it inherits, after that."""
+    """The members of a class itself; except for models, its inherited members follow."""
     kinds = [public] if issubclass(public, BaseModel) else public.__mro__[:-1]
     for kind in kinds:
         yield from vars(kind).items()

@@ -96,7 +96,7 @@ def provide(purpose: str, strict: bool) -> list[str]:
 
 
 def find_missing(purpose: str) -> Missing:
-    """What the purpose wants and does not find; a render asks for one OpenGL route, not for two."""
+    """Needs of the purpose that are missing; a render needs one OpenGL route, not two."""
     tried = {need: need.probe() for need in WANTED[purpose]}
     missing = {need: reason for need, reason in tried.items() if reason}
     if purpose in ("render", "view") and not {EGL, OSMESA} <= missing.keys():

@@ -15,7 +15,7 @@ def listed(title: str) -> list[str]:
 
 
 def test_every_module_has_a_line() -> None:
-    programs, shared = listed("Programs"), listed("What they share")
+    programs, shared = listed("Programs"), listed("They share")
     assert not {*programs} & {*shared}
     modules = {path.stem for path in FOLDER.glob("*.py")} - {"__init__"}
     assert sorted([*programs, *shared]) == sorted(modules)
