@@ -16,7 +16,7 @@ from glrt.core.errors import RenderError
 from glrt.core.resources import folder
 
 _INCLUDE = re.compile(r'\s*#include\s+"([^"]+)"')
-_FLOATS = r"(?:float|d?vec[234]|d?mat[234](?:x[234])?|[A-Z]\w*)"  # types; names of structs are capitalised
+_FLOATS = r"(?:float|d?vec[234]|d?mat[234](?:x[234])?|[A-Z]\w*)"  # structs are capitalised
 _GLOBAL = re.compile(rf"^(?={_FLOATS} \w+ =)")
 _LOCAL = re.compile(rf"^\s+(?:for \()?(?={_FLOATS}(?: ?\[\w*\])? \w+ ?[=;,\[])")
 _CHANGED = re.compile(rf"(?<!precise )\binout(?= {_FLOATS}\b)")
