@@ -12,8 +12,8 @@ def combinations_page() -> Iterator[str]:
     yield "# What goes with what"
     yield GENERATED
     yield (
-        "Ways to render that can be asked for together. What is refused ends with exit code 2 and "
-        "this reason before anything compiles. A test tries each cell."
+        "Ways to render that can be asked for together. A refused combination ends with exit code "
+        "2 and its reason before anything compiles. A test tries each cell."
     )
     yield table(("way", "is"), [(name(way), MEANINGS[way]) for way in Way])
     yield "✓: they work together; no: refused, see below."
