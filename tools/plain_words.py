@@ -1,23 +1,18 @@
 """Check that texts use plain words: python tools/plain_words.py.
 
-It reads pages, docstrings, comments, and the texts of glrt. Each folder may hold at most as many
-findings as tools/plain_words.csv allows. `--list FOLDER` prints them; `--lower` lowers the limits.
+It reads pages, docstrings, comments, and the texts of glrt, and prints each finding.
 """
 
-import argparse
 import ast
-import csv
 import io
 import re
 import sys
 import tokenize
-from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
 ROOT = Path(__file__).parents[1]
-LIMITS = ROOT / "tools" / "plain_words.csv"
 FOLDERS = ("docs", "glrt", "shaders_glsl", "bench", "tests", "tools")
 READ = {".md", ".py", ".glsl", ".comp", ".frag", ".vert"}
 INSTEAD = {  # expression: plain words
@@ -43,32 +38,12 @@ class Finding(NamedTuple):
     advice: str
 
 
-def main(arguments: list[str] | None = None) -> int:
-    """Return 1 if a folder holds more findings than it may."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--list", metavar="FOLDER", help="print the findings below a folder")
-    parser.add_argument("--lower", action="store_true", help="lower the limits to what is found")
-    options = parser.parse_args(arguments)
+def main() -> int:
+    """Return 1 if any text holds a word that is not plain."""
     found = [finding for file in files() for finding in findings(file)]
-    if options.list is not None:
-        for finding in found:
-            if finding.file.startswith(options.list):
-                print(f"{finding.file}:{finding.line}: {finding.words!r}: {finding.advice}")
-        return 0
-    counts, limits = Counter(folder_of(finding.file) for finding in found), read_limits()
-    if options.lower:
-        write_limits({name: min(counts[name], limits.get(name, counts[name])) for name in counts})
-        return 0
-    above = [name for name in sorted(counts) if counts[name] > limits.get(name, 0)]
-    for name in above:
-        print(
-            f"{name}: {counts[name]} words that are not plain, at most {limits.get(name, 0)}: "
-            f"python tools/plain_words.py --list {name}"
-        )
-    unused = [name for name in sorted(limits) if counts[name] < limits[name]]
-    for name in unused:
-        print(f"{name}: {counts[name]} found, {limits[name]} allowed: run it with --lower")
-    return 1 if above or unused else 0
+    for finding in found:
+        print(f"{finding.file}:{finding.line}: {finding.words!r}: {finding.advice}")
+    return 1 if found else 0
 
 
 def files() -> list[str]:
@@ -76,12 +51,6 @@ def files() -> list[str]:
     below = [path for name in FOLDERS for path in (ROOT / name).rglob("*")]
     found = [path for path in [*ROOT.glob("*.md"), *below] if path.suffix in READ]
     return sorted(str(path.relative_to(ROOT)) for path in found)
-
-
-def folder_of(name: str) -> str:
-    """The folder that the limits name: at most two levels."""
-    parts = Path(name).parts[:-1]
-    return "/".join(parts[:2]) or "."
 
 
 def findings(name: str) -> Iterator[Finding]:
@@ -108,8 +77,9 @@ def prose_of(name: str, text: str) -> Iterator[tuple[int, str]]:
 
 
 def without_code(page: str) -> str:
-    """A page whose code is blank, line for line."""
+    """A page without its code and the targets of its links, line for line."""
     blank = re.sub(r"^```.*?^```", lambda m: "\n" * m[0].count("\n"), page, flags=re.M | re.S)
+    blank = re.sub(r"\]\([^)\n]*\)", "]", blank)
     return re.sub(r"`[^`\n]*`", "`x`", blank)
 
 
@@ -130,22 +100,6 @@ def prose_of_python(text: str, is_product: bool) -> Iterator[tuple[int, str]]:
             continue
         if node in docstrings or (is_product and " " in node.value):
             yield node.lineno, node.value
-
-
-def read_limits() -> dict[str, int]:
-    """The most findings of each folder."""
-    if not LIMITS.exists():
-        return {}
-    with LIMITS.open(newline="") as file:
-        return {row["folder"]: int(row["most"]) for row in csv.DictReader(file)}
-
-
-def write_limits(limits: dict[str, int]) -> None:
-    """Write them, without folders that hold none."""
-    with LIMITS.open("w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["folder", "most"])
-        writer.writerows([name, limits[name]] for name in sorted(limits) if limits[name])
 
 
 if __name__ == "__main__":

@@ -43,15 +43,11 @@ def test_comments_of_shaders_are_read() -> None:
     ]
 
 
-@pytest.mark.parametrize(("most", "code"), [(1, 1), (2, 0), (3, 1)])
-def test_a_folder_holds_as_many_as_its_limit_says(
-    most: int, code: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize(("text", "code"), [("It is told.\n", 1), ("[It](#told) is said.\n", 0)])
+def test_a_page_passes_only_without_findings(
+    text: str, code: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (tmp_path / "docs").mkdir()
-    (tmp_path / "docs" / "a.md").write_text("It is told. It is built anew.\n")
+    (tmp_path / "docs" / "a.md").write_text(text)
     monkeypatch.setattr(plain_words, "ROOT", tmp_path)
-    monkeypatch.setattr(plain_words, "LIMITS", tmp_path / "limits.csv")
-    plain_words.write_limits({"docs": most})
-    assert plain_words.main([]) == code
-    assert plain_words.main(["--lower"]) == 0
-    assert plain_words.read_limits() == {"docs": min(most, 2)}
+    assert plain_words.main() == code

@@ -14,7 +14,7 @@ HALF_ULP = ULP / 2
 
 
 def aimed(distance: Array, beside: Array, scale: Array, seed: int) -> dict[str, Array]:
-    """Rays that pass `beside` radii from the centre of spheres `distance` radii away."""
+    """Rays that miss the centres of spheres `distance` radii away, by some radii."""
     random = np.random.default_rng(seed)
     n = len(distance)
     axis, other = random.normal(size=(2, n, 3))

@@ -1,4 +1,4 @@
-// What one sample of each pixel comes by on its way. The path text and the size of a work group
+// Records the stages of one sample of each pixel. The path text and the size of a work group
 // stand in front: see tests/wgsl/stages.py. The twin of stages.wgsl.
 
 layout(std430) writeonly buffer Words { uint words[]; };
