@@ -15,8 +15,8 @@ from glrt.gpu.programs import AnyKernel
 from glrt.rendering.history.drawn_pass import DrawnPass
 from glrt.rendering.history.gbuffer import Surfaces
 from glrt.rendering.history.history_filter import Fresh
-from glrt.rendering.history.reprojection import Reprojection, between
-from glrt.rendering.history.taa import PUBLISHED, UNLIMITED
+from glrt.rendering.history.reprojection import between
+from glrt.rendering.history.taa import PUBLISHED, Taa
 from glrt.rendering.kernel_switch import taken
 from glrt.rendering.passes import MORE
 from glrt.rendering.renderer import Renderer
@@ -88,20 +88,18 @@ SAMPLES = 8  # additional samples of a pixel where the mean fails
 CHOICES = range(2, 17)  # allowed SAMPLES: as in the paper
 
 
-class Ataa:
+class Ataa(Taa):
     """Temporal antialiasing with a mask of failures; masked pixels are traced once a view."""
 
     def __init__(self, gl: moderngl.Context, samples: int = SAMPLES) -> None:
         """Nothing is compiled or allocated before it is needed."""
+        super().__init__(gl)
         self.samples = samples
         self.traced = 0  # number of pixels in this view
-        self._reprojection = Reprojection(gl, UNLIMITED)
-        self._plain, self._find = DrawnPass(gl, "taa.frag"), DrawnPass(gl, "ataa_mask.frag")
-        self._compose, self._more = DrawnPass(gl, "ataa.frag"), MoreSamples(gl)
-        self._means, self._mask, self._canvas = (Canvas(gl, "f4") for _ in range(3))
+        self._find, self._compose = DrawnPass(gl, "ataa_mask.frag"), DrawnPass(gl, "ataa.frag")
+        self._more = MoreSamples(gl)
+        self._mask, self._composed = Canvas(gl, "f4"), Canvas(gl, "f4")
         self._before: Surfaces | None = None
-        self._history: moderngl.Texture | None = None  # the newest of this view
-        self._brought: moderngl.Texture | None = None
         self._extra: moderngl.Texture | None = None
         self._is_masked = False
 
@@ -117,41 +115,31 @@ class Ataa:
 
     def arrive(self, now: Surfaces, before: Surfaces | None, is_same_light: bool) -> None:
         """Reproject the last picture, under any light: clamping and mask keep it near the film."""
-        del is_same_light
-        self._brought, self._before, self._extra = None, before, None
+        super().arrive(now, before, is_same_light)
+        self._before, self._extra = before, None
         self._is_masked, self.traced = False, 0
-        if before and self._history:
-            self._brought = self._reprojection.bring(now, before, self._history)
-        self._history = self._brought
 
     def show(self, now: Surfaces, fresh: Fresh) -> moderngl.Texture:
         """The picture: radiance in RGB, in a the number of samples that it stands for."""
-        size, film = fresh.mean.size, {"light": fresh.light, "mean": fresh.mean}
-        brought = self._brought if fresh.samples < fresh.end else None
-        values = {"has_history": brought is not None, **PUBLISHED._asdict()}
-        means = self._means.sized(size)
-        self._plain.draw(means, {**film, "brought": brought or fresh.mean}, values)
-        assert self._means.texture
-        self._history = self._means.texture
+        plain, brought = super().show(now, fresh), self._still_used(fresh)
         if not brought or not self._before:
-            return self._history
+            return plain
         if not self._is_masked:
             self._look(now, self._before, fresh, brought)
         assert self._mask.texture
-        textures = {**film, "plain": self._means.texture, "mask": self._mask.texture}
-        textures["more"] = self._extra or fresh.mean
+        textures = {"light": fresh.light, "mean": fresh.mean, "plain": plain}
+        textures |= {"mask": self._mask.texture, "more": self._extra or fresh.mean}
         own = {"has_more": self._extra is not None, "least": PUBLISHED.least}
-        self._compose.draw(self._canvas.sized(size), textures, own)
-        assert self._canvas.texture
-        self._history = self._canvas.texture
+        self._compose.draw(self._composed.sized(fresh.mean.size), textures, own)
+        self._history = self._composed.texture
+        assert self._history
         return self._history
 
     def release(self) -> None:
         """Release all OpenGL resources."""
-        for one in (self._reprojection, self._plain, self._find, self._compose, self._more):
-            one.release()
-        for canvas in (self._means, self._mask, self._canvas):
-            canvas.release()
+        super().release()
+        for part in (self._find, self._compose, self._more, self._mask, self._composed):
+            part.release()
         self._is_masked = False
 
     def _look(

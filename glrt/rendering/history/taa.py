@@ -51,13 +51,16 @@ class Taa:
     def show(self, now: Surfaces, fresh: Fresh) -> moderngl.Texture:
         """The picture: radiance in RGB, in a the number of samples that it stands for."""
         del now
-        brought = self._brought if fresh.samples < fresh.end else None
+        brought = self._still_used(fresh)
         textures = {"light": fresh.light, "mean": fresh.mean, "brought": brought or fresh.mean}
         values = {"has_history": brought is not None, **self._options._asdict()}
         self._pass.draw(self._canvas.sized(fresh.mean.size), textures, values)
         self._history = self._canvas.texture
         assert self._history
         return self._history
+
+    def _still_used(self, fresh: Fresh) -> moderngl.Texture | None:
+        return self._brought if fresh.samples < fresh.end else None
 
     def release(self) -> None:
         """Release all OpenGL resources."""
