@@ -44,7 +44,7 @@ gallery: ## render every scene into gallery/
 	$(IN_ENVIRONMENT) bench.gallery
 
 bench: ## measure how fast the kernel, its variants and the window are, and other renderers
-	@$(BOOTSTRAP) test
+	@$(BOOTSTRAP) bench
 	$(IN_ENVIRONMENT) bench.window_tour drag
 	$(IN_ENVIRONMENT) bench.drags
 	$(IN_ENVIRONMENT) bench.kernels --seconds 0.1

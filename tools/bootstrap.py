@@ -1,4 +1,4 @@
-"""Makes all that `make render`, `view`, `test` and `check` need: `python3 bootstrap.py PURPOSE`.
+"""Makes what `make render`, `view`, `check`, `test`, `bench` need: `python3 bootstrap.py PURPOSE`.
 
 The system libraries come first, then `.venv` with glrt and its Python packages. A state file in
 `.venv` says what was made from what, so that the next call has nothing to do and needs no network.
@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 import sys
 
-PURPOSES = ("render", "view", "check", "test")
+PURPOSES = ("render", "view", "check", "test", "bench")
 MINIMUM = (3, 11)
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 

@@ -20,9 +20,21 @@ import steps
 State = dict[str, Any]
 UNFINISHED: State = {"unfinished": True}
 STATE_FILE = "glrt-setup.json"
-EXTRAS = {"check": "[dev]", "render": "", "test": "[dev]", "view": "[view]"}
-BRINGS = {"": [""], "[view]": ["", "[view]"], "[dev]": ["", "[view]", "[dev]"]}
+EXTRAS = {
+    "bench": "[dev,mitsuba]",
+    "check": "[dev]",
+    "render": "",
+    "test": "[dev]",
+    "view": "[view]",
+}
+BRINGS = {
+    "": [""],
+    "[view]": ["", "[view]"],
+    "[dev]": ["", "[view]", "[dev]"],
+    "[dev,mitsuba]": ["", "[view]", "[dev]", "[dev,mitsuba]"],
+}
 COVERS = {  # by system libraries
+    "bench": ("check", "render", "test", "view"),
     "check": (),
     "render": ("check",),
     "test": ("check", "render", "view"),

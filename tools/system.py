@@ -59,7 +59,7 @@ WINDOW = Need(
     "Alpine: mesa-gl libx11 libxext)",
 )
 LLVM = Need(
-    "LLVM 19 and libatomic for Mitsuba, the renderer that tests compare with",
+    "LLVM 19 and libatomic for Mitsuba, the renderer that benchmarks and CI compare with",
     probes.llvm,
     ("libllvm19", "libatomic1"),
     "LLVM 19 and libatomic (Fedora: llvm-libs libatomic; Arch: llvm-libs gcc-libs; "
@@ -73,9 +73,10 @@ GLSLANG = Need(
 )
 
 WANTED = {
+    "bench": (CXX, VENV, EGL, OSMESA, XVFB, WINDOW, VULKAN, GLSLANG, LLVM),
     "check": (CXX, VENV),
     "render": (CXX, VENV, EGL, OSMESA),
-    "test": (CXX, VENV, EGL, OSMESA, XVFB, WINDOW, VULKAN, LLVM, GLSLANG),
+    "test": (CXX, VENV, EGL, OSMESA, XVFB, WINDOW, VULKAN, GLSLANG),
     "view": (CXX, VENV, EGL, OSMESA, WINDOW),
 }
 Missing = Mapping[Need, str]  # what does not work, and why

@@ -2,23 +2,19 @@
 
 import sys
 from collections.abc import Iterator
-from importlib.util import find_spec
 
 import pytest
 
 from bench.peer import Peer
 from glrt.core.errors import RenderError
 from tests.mitsuba.engine import LLVM_PACKAGE
-from tests.support.system_packages import needs_package
-
-NO_WHEEL = "Mitsuba has no wheel for this system"
+from tests.support.system_packages import needs_mitsuba, needs_package
 
 
 @pytest.fixture(scope="module")
 def mitsuba() -> Iterator[Peer]:
     """Mitsuba in its fast mode, ready."""
-    if find_spec("mitsuba") is None:
-        pytest.skip(NO_WHEEL)
+    needs_mitsuba()
     try:
         peer = Peer([sys.executable, "-m", "tests.mitsuba.serve"])
     except RenderError as error:

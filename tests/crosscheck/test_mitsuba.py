@@ -3,7 +3,6 @@
 import json
 import subprocess
 import sys
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +18,6 @@ from glrt.gpu.context import Context
 from glrt.image.image import Image
 from glrt.image.sources import load
 from glrt.scene.scene import Scene, with_lights
-from tests.crosscheck.conftest import NO_WHEEL
 from tests.mitsuba.scenes import (
     GLASS_BOX,
     MATERIALS,
@@ -40,6 +38,7 @@ from tests.mitsuba.scenes import (
 from tests.support.alarms import ALPHA, book
 from tests.support.builders import glass, plane, scene_of, sphere
 from tests.support.renders import rendered
+from tests.support.system_packages import needs_mitsuba
 
 SMALL = {"width": 48, "height": 48, "bounces": 3, "roulette": False}
 SAMPLES = 256
@@ -265,8 +264,7 @@ def test_scene_looks_the_same_to_mitsuba(context: Context, mitsuba: Peer, name: 
 @pytest.mark.slow
 def test_the_program_writes_what_compare_reads(tmp_path: Path) -> None:
     """It runs in its slow mode, which needs no LLVM, and from the command line."""
-    if find_spec("mitsuba") is None:
-        pytest.skip(NO_WHEEL)
+    needs_mitsuba()
     file = tmp_path / "sky.exr"
     line = "sky --width 24 --height 16 --samples 16 --bounces 2 --variant scalar --json -o"
     command = [sys.executable, "-m", "tests.mitsuba", *line.split(), str(file)]

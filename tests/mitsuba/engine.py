@@ -38,7 +38,8 @@ def load_mitsuba(variant: str = "auto") -> Any:
     try:
         mi = importlib.import_module("mitsuba")
     except ImportError:
-        raise UsageError("Mitsuba is not installed: pip install mitsuba.") from None
+        message = "Mitsuba is not installed: type pip install 'glrt[mitsuba]', or make bench."
+        raise UsageError(message) from None
     mi.set_variant({"llvm": "llvm_ad_rgb", "scalar": "scalar_rgb"}[variant])
     return mi
 

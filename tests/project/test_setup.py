@@ -144,6 +144,19 @@ def test_tests_add_packages_to_the_environment_of_a_render(
     assert all(is_ready(checkout, purpose) for purpose in ("check", "render", "test"))
 
 
+def test_benchmarks_and_ci_add_mitsuba_which_tests_do_without(
+    checkout: Path, commands: list[list[str]]
+) -> None:
+    environment.make(str(checkout), "test", [])
+    assert not is_ready(checkout, "bench")
+    environment.make(str(checkout), "bench", [])
+    assert commands[-1][-1].endswith("[dev,mitsuba]")
+    assert all(is_ready(checkout, purpose, strict=True) for purpose in ("check", "test", "bench"))
+    assert system.LLVM in system.WANTED["bench"]
+    assert system.LLVM not in system.WANTED["test"]
+    assert "tools/bootstrap.py bench" in (ROOT / ".ci" / "run").read_text()
+
+
 def test_ci_is_not_content_with_a_set_up_that_lacks_something(
     checkout: Path, commands: list[list[str]]
 ) -> None:
@@ -265,5 +278,5 @@ def test_the_limits_of_ci_fit_into_what_it_grants() -> None:
     text = (ROOT / ".ci" / "run").read_text()
     limits = [int(seconds) for seconds in re.findall(r"^within (\d+)", text, re.MULTILINE)]
     (grace,) = re.findall(r"--kill-after=(\d+)", text)
-    assert len(limits) == 4
+    assert len(limits) == 5
     assert sum(limits) + len(limits) * int(grace) <= 5400

@@ -1,9 +1,12 @@
 """Skip or fail where a system package, or something else of a machine, is missing."""
 
 import os
+import platform
 import shutil
 import subprocess
+import sys
 from ctypes.util import find_library
+from importlib.util import find_spec
 from typing import Literal, NoReturn, overload
 
 import pytest
@@ -26,6 +29,14 @@ def needs(is_there: bool, what: str) -> None:
 def needs_package(is_there: bool, package: str) -> None:
     """The same of a system package, by its name."""
     needs(is_there, f"the system package {package}")
+
+
+def needs_mitsuba() -> None:
+    """Mitsuba, an extra of its own; it has no wheel for Linux except on x86-64."""
+    is_there = find_spec("mitsuba") is not None
+    if not is_there and sys.platform == "linux" and platform.machine() != "x86_64":
+        pytest.skip("Mitsuba has no wheel for this system")
+    needs(is_there, "Mitsuba: type pip install 'glrt[mitsuba]'")
 
 
 def needs_osmesa() -> None:

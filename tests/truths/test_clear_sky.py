@@ -3,7 +3,6 @@
 import json
 import subprocess
 import sys
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -26,6 +25,7 @@ from tests.support.builders import MATTE, plane, scene_of, sphere
 from tests.support.numerics import Array
 from tests.support.renders import METHODS, assert_agree, assert_mean, rendered, whole
 from tests.support.sky_images import sky64
+from tests.support.system_packages import needs_mitsuba
 
 ROOT = Path(__file__).parents[2]
 FLOOR = plane([0, 0, 0], [0, 1, 0], "m")
@@ -67,8 +67,7 @@ def received(sky: ClearSky, towards: Array) -> Array:
 @pytest.mark.slow
 def test_it_is_the_sky_that_mitsuba_shows() -> None:
     """Another program, the same coefficients: the formula and what is between its tables."""
-    if find_spec("mitsuba") is None:
-        pytest.skip("Mitsuba has no wheel for this system")
+    needs_mitsuba()
     random, cases = np.random.default_rng(1), []
     for seed, elevation in enumerate((0.1, 0.3, 5.0, 20.0, 47.0, 80.0, 90.0)):
         towards = Sun(elevation=elevation, azimuth=float(random.uniform(-180, 180))).towards
@@ -92,8 +91,7 @@ def test_it_is_the_sky_that_mitsuba_shows() -> None:
 
 
 def test_the_coefficients_are_those_of_the_model() -> None:
-    if find_spec("mitsuba") is None:
-        pytest.skip("Mitsuba has no wheel for this system")
+    needs_mitsuba()
     command = [sys.executable, "-c", CHECK]
     done = subprocess.run(command, cwd=ROOT / "tools", capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
