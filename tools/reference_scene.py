@@ -12,23 +12,17 @@ from glrt.scene.lights.background import Background
 from glrt.scene.lights.clear_sky import ClearSky
 from glrt.scene.lights.cone import Cone
 from glrt.scene.lights.sun import Sun
-from glrt.scene.materials.dielectric import Dielectric
-from glrt.scene.materials.lambertian import Lambertian
-from glrt.scene.materials.light import Light
-from glrt.scene.materials.metal import Metal
-from glrt.scene.materials.principled import Principled
+from glrt.scene.materials.kinds import TYPES
 from glrt.scene.materials.textures import NormalTexture, Texture
 from glrt.scene.probes import Probes
 from glrt.scene.scene import Scene
-from glrt.scene.shapes.box import Box
-from glrt.scene.shapes.cylinder import Cylinder
-from glrt.scene.shapes.disk import Disk
-from glrt.scene.shapes.mesh import Mesh
-from glrt.scene.shapes.plane import Plane
-from glrt.scene.shapes.quad import Quad
-from glrt.scene.shapes.sphere import Sphere
+from glrt.scene.shapes.kinds import KINDS
 from glrt.settings import RenderSettings, editable_of
 
+NOTES = {  # on a type of material or a kind of shape
+    "principled": "[Principled surfaces](../explanation/principled.md).",
+    "mesh": "[Put a 3D model into a scene](../how-to/models.md).",
+}
 SCENE_TABLES: list[tuple[str, str, type[BaseModel]]] = [
     ("[camera]", "Required.", Camera),
     ("[render]", "Optional. Options of the command line override it.", RenderSettings),
@@ -40,15 +34,7 @@ SCENE_TABLES: list[tuple[str, str, type[BaseModel]]] = [
     ),
     ("[sun]", "Optional; there is none by default.", Sun),
     ("[probes]", "Optional. [Probes](../explanation/probes.md).", Probes),
-    ("[materials.NAME] of type lambertian", "", Lambertian),
-    ("[materials.NAME] of type metal", "", Metal),
-    ("[materials.NAME] of type dielectric", "", Dielectric),
-    (
-        "[materials.NAME] of type principled",
-        "[Principled surfaces](../explanation/principled.md).",
-        Principled,
-    ),
-    ("[materials.NAME] of type light", "", Light),
+    *((f"[materials.NAME] of type {name}", NOTES.get(name, ""), TYPES[name]) for name in TYPES),
     (
         "texture",
         'In place of a color or a number: `color = { image = "wood.jpg" }`. '
@@ -61,17 +47,7 @@ SCENE_TABLES: list[tuple[str, str, type[BaseModel]]] = [
         NormalTexture,
     ),
     ("cone of a material", "In TOML: `cone = { axis = [0, -1, 0], outer = 30 }`.", Cone),
-    ("[[objects]] of shape sphere", "", Sphere),
-    ("[[objects]] of shape plane", "", Plane),
-    ("[[objects]] of shape quad", "", Quad),
-    ("[[objects]] of shape disk", "", Disk),
-    ("[[objects]] of shape box", "", Box),
-    ("[[objects]] of shape cylinder", "", Cylinder),
-    (
-        "[[objects]] of shape mesh",
-        "[Put a 3D model into a scene](../how-to/models.md).",
-        Mesh,
-    ),
+    *((f"[[objects]] of shape {name}", NOTES.get(name, ""), KINDS[name]) for name in KINDS),
 ]
 
 

@@ -9,9 +9,9 @@ slot is
                             upper 8 bits, the exponent of its cell
              words 3 to 14  the boxes of its children in cells: along each axis 8 bytes for their
                             starts, 8 bytes for their ends
-             word 15        the number of its last child from bit 28 on, and the slot of its first
+             word 15        the number of its last child from bit 27 on, and the slot of its first
     a leaf:  words 0 to 14  what the packer of its shapes writes
-             word 15        LEAF, their kind from bit 28 on, and the number of a shape
+             word 15        LEAF, their kind from bit 27 on, and the number of a shape
 """
 
 from typing import NamedTuple
@@ -29,7 +29,7 @@ SLOT = 16  # words in a slot
 GRID_BITS = 24
 HALF_GRID = 2 ** (GRID_BITS - 1)
 MARGIN = 4  # cells at the edges of the grid that stay empty
-LINK_BITS = 28  # bits for a slot or the number of a shape
+LINK_BITS = 27  # bits for a slot or the number of a shape
 LEAF = 1 << 31
 PORTION = 1 << 14  # nodes that are written at once, so that memory is bounded
 _BIAS = 127  # bias of float32 exponents

@@ -72,4 +72,4 @@ def plural(noun: str) -> str:
     """Return the plural of a noun: lamps, boxes, meshes, vertices."""
     if noun == "vertex":
         return "vertices"
-    return f"{noun}{'es' if noun.endswith(('x', 'sh')) else 's'}"
+    return f"{noun}{'es' if noun.endswith(('s', 'x', 'sh')) else 's'}"

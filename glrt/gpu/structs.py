@@ -44,7 +44,7 @@ def read_constants(glsl: str) -> dict[str, int]:
 def record(dtype: np.dtype[Any], values: Mapping[str, object]) -> np.ndarray[Any, Any]:
     """Return one record with every field given by name; KeyError for a missing or unknown name."""
     if unknown := values.keys() - set(dtype.names or ()):
-        raise KeyError(f"no field {sorted(unknown)} in {dtype.names}")
+        raise KeyError(f"no field {sorted(unknown)} in a struct of shaders_glsl: {dtype.names}")
     result = np.zeros(1, dtype)
     for name in dtype.names or ():
         field = dtype.fields[name][0] if dtype.fields else dtype

@@ -4,7 +4,7 @@ docs/extending.md explains how to add a kind.
 """
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from functools import partial
 from typing import Any, NamedTuple
 
@@ -33,22 +33,43 @@ Array = np.ndarray[Any, Any]
 SLOTS_OF_SHAPE, SLOTS_OF_TRIANGLE = 1.5, 0.8  # slots for each, in a large tree
 FEW = 2048  # spare slots at most: nodes of small trees are less full
 
+MOST_CODES = 16  # kinds of leaves: four bits (kind_of in shaders_glsl/shapes/tree.glsl)
+
+
+def _family(struct: str, *fields: str) -> Family:
+    """Return how leaves hold a kind: its fields in the order in which `meet_leaf` reads them."""
+    if (name := struct.upper()) not in CONSTANTS:
+        raise TypeError(f"shaders_glsl/structs/shapes.glsl has no `const int {name}`: add a number")
+    if unknown := set(fields) - set(STRUCTS[struct].names or ()):
+        raise TypeError(f"leaves of {struct} name fields that its struct lacks: {sorted(unknown)}")
+    return Family(CONSTANTS[name], fields)
+
+
 # By the name of the struct. Planes have no bounds and stay outside; triangles have other leaves.
 FAMILIES = {
-    "Sphere": Family(CONSTANTS["SPHERE"], ("center", "radius")),
-    "Quad": Family(CONSTANTS["QUAD"], ("corner", "normal", "dual_u", "dual_v")),
-    "Disk": Family(CONSTANTS["DISK"], ("center", "normal", "radius")),
-    "Box": Family(
-        CONSTANTS["BOX"], ("center", "axis_x", "half_x", "axis_y", "half_y", "axis_z", "half_z")
-    ),
-    "Cylinder": Family(
-        CONSTANTS["CYLINDER"], ("center", "axis", "radius", "half_height", "is_capped")
-    ),
+    "Sphere": _family("Sphere", "center", "radius"),
+    "Quad": _family("Quad", "corner", "normal", "dual_u", "dual_v"),
+    "Disk": _family("Disk", "center", "normal", "radius"),
+    "Box": _family("Box", "center", "axis_x", "half_x", "axis_y", "half_y", "axis_z", "half_z"),
+    "Cylinder": _family("Cylinder", "center", "axis", "radius", "half_height", "is_capped"),
 }
 
 
-if {kind.lower() for kind in FAMILIES} != {*KINDS} - {*ENDLESS, MESH}:
-    raise TypeError(f"leaves hold {list(FAMILIES)}; kinds of shapes are {list(KINDS)}")
+def check_kinds(families: Mapping[str, Family], kinds: Collection[str]) -> None:
+    """Raise TypeError unless each bounded kind has leaves, with a number that no other has."""
+    wanted = {*kinds} - {*ENDLESS, MESH}
+    if without := wanted - {struct.lower() for struct in families}:
+        raise TypeError(f"kinds without leaves: {sorted(without)}; add them to FAMILIES")
+    taken = {CONSTANTS["INSTANCE"]: "INSTANCE", CONSTANTS["TRIANGLES"]: "TRIANGLES"}
+    for struct, family in families.items():
+        other = taken.setdefault(family.code, struct)
+        if other != struct:
+            raise TypeError(f"leaves of {struct} have the number {family.code} of {other}")
+        if not 0 <= family.code < MOST_CODES:
+            raise TypeError(f"leaves of {struct} have the number {family.code}, 0 to 15 exist")
+
+
+check_kinds(FAMILIES, KINDS)
 
 
 class SceneTree(NamedTuple):

@@ -4,7 +4,7 @@ Positions are made relative to the camera in float64, so that no digits are lost
 origin. docs/extending.md explains how to add a kind.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -134,8 +134,18 @@ PACKERS: dict[type, Callable[[Array, Any, Placing, int], None]] = {
 }
 NUMBERED = tuple(kind.__name__ for kind in PACKERS)  # structs, in the order of the numbering
 
-if list(PACKERS) != list(KINDS.values()):
-    raise TypeError(f"shapes have packers {list(PACKERS)}, and models {list(KINDS.values())}")
+UNSET = np.iinfo(np.int32).min  # in a field of a row that its packer must fill
+
+
+def check_packers(packers: Collection[type], kinds: Collection[type]) -> None:
+    """Raise TypeError unless each model has a packer, in the order of the models."""
+    if without := [kind.__name__ for kind in kinds if kind not in packers]:
+        raise TypeError(f"shapes without a packer: {', '.join(without)}; add them to PACKERS")
+    if list(packers) != list(kinds):
+        raise TypeError("PACKERS has another order than Shape in glrt/scene/shapes/kinds.py")
+
+
+check_packers(PACKERS, KINDS.values())
 
 
 def order_of_kernel(scene: Scene) -> list[int]:
@@ -155,7 +165,13 @@ def pack_shapes(shapes: Sequence[Shape], placing: Placing) -> dict[str, Array]:
         some = [shape for shape in shapes if type(shape) is kind]
         rows = np.zeros(len(some), STRUCTS[kind.__name__])
         if some:
+            owed = [name for name in ("material", "light") if name in (rows.dtype.names or ())]
+            for name in owed:
+                rows[name] = UNSET
             pack(rows, some, placing, first)
+            for name in owed:
+                if (rows[name] == UNSET).any():
+                    raise TypeError(f"{pack.__name__} leaves `{name}` unset")
         arrays[kind.__name__] = rows
         first += len(some)
     return arrays

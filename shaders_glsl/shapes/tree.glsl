@@ -2,7 +2,7 @@
 // driver that computes both sides of a branch waits for neither.
 
 const uint LEAF = 0x80000000u;
-const uint LINK = 0x0FFFFFFFu;
+const uint LINK = 0x07FFFFFFu;
 
 // Keeps the new hit if it is nearer, or at the same distance with a lower number.
 Hit nearer(Ray ray, Hit hit, float t, int shape, int ignored) {
@@ -11,7 +11,7 @@ Hit nearer(Ray ray, Hit hit, float t, int shape, int ignored) {
     return hit;
 }
 
-int kind_of(Slot leaf) { return int(leaf.d.w >> 28u & 7u); }
+int kind_of(Slot leaf) { return int(leaf.d.w >> 27u & 15u); }
 
 int number_in(Slot leaf) { return int(leaf.d.w & LINK); }
 

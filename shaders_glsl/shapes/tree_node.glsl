@@ -65,7 +65,7 @@ Children children_of(Slot slot, TreeRay ray) {
               down.z ? start_low.z : end_low.z),
         uvec3(down.x ? start_high.x : end_high.x, down.y ? start_high.y : end_high.y,
               down.z ? start_high.z : end_high.z),
-        slot.d.w >> 28u & 7u);
+        slot.d.w >> 27u & 7u);
 }
 
 // Where the ray enters the box of a child before `limit`. The result is the bits of the distance, whose order is that
