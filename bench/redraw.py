@@ -19,9 +19,10 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
+from glrt.analysis.motion.playing import Played as Playing
 from glrt.analysis.motion.playing import play, screen_of
 from glrt.analysis.motion.sequences import Sequence, orbit
-from glrt.analysis.reference import reference_for
+from glrt.analysis.reference import Budget, reference_for
 from glrt.gpu.context import Context, open_context
 from glrt.image.sources import load
 from glrt.image.tonemap import expose_and_encode
@@ -90,13 +91,13 @@ def measure(scene: str, size: tuple[int, int], context: Context, ways: Ways) -> 
     settings = settings_for(opened.render, width=size[0], height=size[1])
     frames = orbit(opened, FRAMES, DEGREES)
     truth = {
-        n: reference_for(frames.scenes[n], settings, context, 0.0, math.inf, samples=REFERENCE)
+        n: reference_for(frames.scenes[n], settings, context, Budget(0.0, math.inf, REFERENCE))
         for n in LOOKS
     }
     found = []
     for way in ways:
         more: list[float] = []
-        played = play(frames, settings, context, way, more=more)
+        played = play(frames, Playing(settings, way), context, 1, more)
         errors, start = [], time.process_time()
         looked = 0.0
         for number, picture in enumerate(played):
@@ -199,7 +200,7 @@ def _frames_of(scene: str, context: Context, ways: Ways) -> list[NDArray[np.uint
     opened = load(scene)
     settings = settings_for(opened.render, width=FILM[0], height=FILM[1])
     swing: Sequence = orbit(opened, SWING, 1.5)
-    played = [play(swing, settings, context, way) for way in ways]
+    played = [play(swing, Playing(settings, way), context) for way in ways]
     return [
         np.hstack([expose_and_encode(one, 0.0, settings.tonemap) for one in row])
         for row in zip(*played, strict=True)

@@ -15,6 +15,7 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
+from typing import NamedTuple
 from zipfile import BadZipFile
 
 import numpy as np
@@ -88,37 +89,39 @@ class Reference:
         return float(np.divide(squares, self.scale, out=squares * 0, where=self.scale > 0).mean())
 
 
+class Budget(NamedTuple):
+    """When a reference is good enough, or has taken enough."""
+
+    error: float  # relative RMS error of the reference itself
+    seconds: float  # infinite: no clock decides
+    samples: int = MAX_SAMPLES
+
+
 def reference_for(
     scene: Scene,
     settings: Settings,
     context: Context,
-    error: float,
-    seconds: float,
+    budget: Budget,
     watch: Callable[[float], None] | None = None,
     check: Callable[[Renderer], bool] | None = None,
-    samples: int = MAX_SAMPLES,
 ) -> Reference:
     """Return the reference of a scene in the frame of `settings`, from the cache if it is there.
 
-    The number of samples doubles until the relative RMS error of the reference itself is at most
-    `error`, or until the next doubling would exceed `seconds` or `samples`. With infinite `seconds`
-    no clock decides. `watch` is called with the share of the work that is done; `check` is called
-    after each dispatch and may raise to stop.
+    The number of samples doubles until the error is that of the budget, or until the next doubling
+    would exceed its seconds or samples. `watch` is called with the share of the work that is done;
+    `check` is called after each dispatch and may raise to stop.
     """
     radiance = closed_form(scene)
     if radiance is not None:
         width, height = settings.size
         whole = np.full((height, width, 3), radiance)
         return Reference(whole, whole, 0, BOUNCES)
-    path = (
-        cache_folder("references")
-        / f"{_key(scene, settings, context, error, seconds, samples)}.npz"
-    )
+    path = cache_folder("references") / f"{_key(scene, settings, context, budget)}.npz"
     found = _loaded(path)
     if found is None:
         halves = _halves(scene, settings, context)
         try:
-            found = _rendered(halves, error, seconds, watch, check, samples)
+            found = _rendered(halves, budget, watch, check)
         finally:
             for half in halves:
                 half.release()
@@ -183,12 +186,11 @@ def _halves(scene: Scene, settings: Settings, context: Context) -> list[Renderer
 
 def _rendered(
     halves: list[Renderer],
-    error: float,
-    seconds: float,
+    budget: Budget,
     watch: Callable[[float], None] | None,
     check: Callable[[Renderer], bool] | None,
-    most: int = MAX_SAMPLES,
 ) -> Reference:
+    error, seconds, most = budget
     start = time.perf_counter()
     samples = FIRST_LOOK
     while True:
@@ -212,16 +214,14 @@ def _is_doubtful(halves: list[Image]) -> bool:
     return bool(judged(first.recipe.scene, first.recipe.settings, samples, radiance, stderr))
 
 
-def _key(
-    scene: Scene, settings: Settings, context: Context, error: float, seconds: float, samples: int
-) -> str:
+def _key(scene: Scene, settings: Settings, context: Context, budget: Budget) -> str:
     """A hash of everything that the halves depend on, shader sources and driver included."""
     root = folder("shaders_glsl")
     texts = [(file, file.read_text("utf-8")) for file in shader_files()]
     shaders = {file.relative_to(root).as_posix(): text for file, text in texts}
     frame = [settings.width, settings.height, settings.crop]
     paths = [settings.bounces, BOUNCES, settings.roulette]
-    ends = [error, seconds, samples]
+    ends = [*budget]
     driver = [context.renderer, context.version]
     told = {**scene_to_dict(scene), "assets": hashes_of(scene)}
     parts = [told, frame, paths, SEEDS, SAMPLER, ends, driver, VERSION, shaders]

@@ -16,7 +16,7 @@ from typing import Any, get_args
 from glrt.analysis.chart import files as method_files
 from glrt.analysis.chart.experiment import Plan, Tell, frame_of, measure_scene
 from glrt.analysis.chart.files import save_chart
-from glrt.analysis.motion.measure import tracks_of
+from glrt.analysis.motion.measure import TrackPlan, tracks_of
 from glrt.analysis.motion.report import PAGE, save_page, save_tracks
 from glrt.analysis.plot import MOST_CURVES, check_matplotlib
 from glrt.cli.options import SCENE, add_context, add_files, file_rules
@@ -109,7 +109,7 @@ def run(arguments: argparse.Namespace) -> int:
         try:
             with _progress(arguments.quiet) as tell:
                 report_or_stop = _stopping(tell, interruption)
-                work = partial(_temporal, ways, kept) if ways else _chart
+                work = partial(_temporal, TrackPlan(ways, kept, REFERENCE)) if ways else _chart
                 page = work(scenes, plan, folder, arguments.context, report_or_stop)
         except KeyboardInterrupt:
             print(
@@ -152,13 +152,7 @@ def _chart(scenes: dict[str, Scene], plan: Plan, folder: Path, route: Choice, te
 
 
 def _temporal(
-    ways: tuple[Way, ...],
-    hysteresis: tuple[float, ...],
-    scenes: dict[str, Scene],
-    plan: Plan,
-    folder: Path,
-    route: Choice,
-    tell: Tell,
+    shown: TrackPlan, scenes: dict[str, Scene], plan: Plan, folder: Path, route: Choice, tell: Tell
 ) -> Path:
     context = open_context(route)
     tracks = []
@@ -168,8 +162,7 @@ def _temporal(
             tell(text, (before + share) / len(scenes))
 
         settings = frame_of(scene, plan.height)
-        how = settings, context, ways, REFERENCE, report_all
-        found = tracks_of(name, scene, *how, hysteresis=hysteresis)
+        found = tracks_of(name, scene, settings, context, shown, report_all)
         save_tracks(name, scene.title or name, found, folder)
         tracks += found
     return save_page(tracks, f"Pictures are {plan.height} pixels high.", folder)

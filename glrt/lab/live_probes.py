@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from glrt.analysis.motion.playing import play
+from glrt.analysis.motion.playing import Played, play
 from glrt.analysis.motion.sequences import light_step
 from glrt.lab.scenes import Table, lamp, matte, quad, scene_of, sphere
 from glrt.lab.sweep import Lab, Sweep, mean_of
@@ -67,7 +67,7 @@ def _left(lab: Lab, albedo: float, hysteresis: float) -> list[float]:
     ways = {**SETTINGS, "probes": 2, "bounces": 3, "roulette": False}
     settings = settings_for(scene.render, **ways)
     frames = light_step(scene, UPDATES[-1] + 1, 1, DIM)
-    played = play(frames, settings, lab.context, Way("reset"), hysteresis=hysteresis)
+    played = play(frames, Played(settings, Way("reset"), hysteresis), lab.context)
     means = [float(picture.mean(dtype=np.float64)) for picture in played]
     held = [(mean - shines) / albedo - shines for mean, shines in _with_light(means)]
     end = DIM * held[0]

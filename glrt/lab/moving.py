@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from glrt.analysis.motion.playing import Picture, play
+from glrt.analysis.motion.playing import Picture, Played, play
 from glrt.analysis.motion.sequences import Sequence as Frames
 from glrt.analysis.motion.sequences import with_camera
 from glrt.lab.scenes import glass, lamp, matte, plane, quad, scene_of, sphere
@@ -214,7 +214,7 @@ def _aside(scene: Scene, by: float) -> Scene:
 
 def _shown(lab: Lab, moves: Frames, way: Way, seed: int, samples: int = SAMPLES) -> list[Picture]:
     settings = settings_for(moves.scenes[0].render, seed=seed, **SETTINGS)
-    return [*play(moves, settings, lab.context, way, samples)]
+    return [*play(moves, Played(settings, way), lab.context, samples)]
 
 
 def _truths(lab: Lab, scene: Scene) -> list[Any]:

@@ -9,7 +9,7 @@ import pytest
 from glrt.analysis import reference as references
 from glrt.analysis.method_choice import search, trial
 from glrt.analysis.method_choice.advice import conclusion
-from glrt.analysis.method_choice.search import what_suffices
+from glrt.analysis.method_choice.search import Question, what_suffices
 from glrt.core.resources import folder
 from glrt.gpu.context import Context
 from glrt.image.sources import load
@@ -78,7 +78,7 @@ def test_what_is_measured_of_a_crop_is_the_crop(
 ) -> None:
     """In a frame where it has about as many pixels as a whole one has; the time is its own."""
     wanted = settings_for(half_lit().render, width=40, height=40, crop=crop)
-    verdict = what_suffices(half_lit(), wanted, 0.5, context)
+    verdict = what_suffices(half_lit(), wanted, Question(0.5), context)
     assert np.unique(verdict.reference.radiance) == mean
     rows, columns, _ = verdict.reference.radiance.shape
     assert rows * columns == pytest.approx(SIZE**2, rel=0.25)
@@ -99,7 +99,7 @@ def test_the_time_of_a_crop_is_its_share_of_the_frame(
     whole = settings_for(scene.render, width=64, height=64)
     part = settings_for(whole, crop=(8, 8, 16, 16))
     seconds = [
-        candidate(what_suffices(scene, wanted, 0.5, context), "mis").seconds_per_sample
+        candidate(what_suffices(scene, wanted, Question(0.5), context), "mis").seconds_per_sample
         for wanted in (whole, part)
     ]
     assert seconds[1] == pytest.approx(seconds[0] / 16, rel=0.5)

@@ -9,8 +9,17 @@ import numpy as np
 import pytest
 
 from glrt.analysis.chart.rays import rays_of
-from glrt.analysis.motion.measure import BEFORE, FRAMES, Seen, Track, by_probes, looks_of, tracks_of
-from glrt.analysis.motion.playing import play
+from glrt.analysis.motion.measure import (
+    BEFORE,
+    FRAMES,
+    Seen,
+    Track,
+    TrackPlan,
+    by_probes,
+    looks_of,
+    tracks_of,
+)
+from glrt.analysis.motion.playing import Played, play
 from glrt.analysis.motion.report import HEADINGS, PAGE, rows, save_page, save_tracks
 from glrt.analysis.motion.sequences import light_step, orbit, turned
 from glrt.analysis.plot import MOST_CURVES
@@ -76,9 +85,9 @@ def test_history_makes_an_orbit_clearer_and_figures_are_the_same_again(context: 
     scene = load("cornell")
     settings = settings_for(scene.render, width=24, height=24)
     modes: tuple[Mode, ...] = ("reset", "reproject")
+    plan = TrackPlan([*map(Way, modes)], (), 256)
     found = [
-        tracks_of("cornell", scene, settings, context, [*map(Way, modes)], 256, lambda *_: None)
-        for _ in range(2)
+        tracks_of("cornell", scene, settings, context, plan, lambda *_: None) for _ in range(2)
     ]
     assert found[0] == found[1]
     reset, reproject = found[0][:2]
@@ -152,7 +161,7 @@ def test_ataa_traces_as_many_samples_as_are_asked_for(context: Context) -> None:
     for traced in (2, 16):
         more: list[float] = []
         frames = orbit(scene, 4, 1.0)
-        assert [*play(frames, settings, context, Way("ataa", traced=traced), more=more)]
+        assert [*play(frames, Played(settings, Way("ataa", traced=traced)), context, 1, more)]
         taken.append(more[1])
     assert 0 < taken[0] < 2
     assert taken[1] == 8 * taken[0]
@@ -175,9 +184,7 @@ def test_live_probes_follow_a_light_step_frame_by_frame(context: Context) -> Non
     way = {"width": 8, "height": 8, "method": "ddgi", "sampler": "sobol", "probes": 2}
     settings = settings_for(scene.render, **way, bounces=3, roulette=False)
     held = warmed_up(0.5)
-    for number, picture in enumerate(
-        play(frames, settings, context, Way("reset"), hysteresis=kept)
-    ):
+    for number, picture in enumerate(play(frames, Played(settings, Way("reset"), kept), context)):
         shines = 1.0 if number < 3 else dim
         if number:
             held = kept * held + (1 - kept) * 0.5 * (shines + held)
@@ -189,9 +196,8 @@ def test_tracks_of_probes_count_their_rays(context: Context) -> None:
     """Live probes take an update a frame, and are placed again only in an orbit."""
     scene = load("methods/diffuse")
     settings = settings_for(scene.render, width=16, height=16, probes=2)
-    found = tracks_of(
-        "d", scene, settings, context, [Way("reset")], 16, lambda *_: None, hysteresis=(0.9,)
-    )
+    plan = TrackPlan([Way("reset")], (0.9,), 16)
+    found = tracks_of("d", scene, settings, context, plan, lambda *_: None)
     names = ["reset", "ddgi", "ddgi, live 0.9"]
     assert [track.mode for track in found] == [*names, *names]
     of_ddgi = rays_of(scene, found_settings(settings), context)
@@ -206,8 +212,7 @@ def test_tracks_of_probes_count_their_rays(context: Context) -> None:
 
 
 def found_settings(settings: Settings) -> Settings:
-    (own, _) = by_probes(settings, (0.9,))
-    return own.settings
+    return by_probes(settings, (0.9,))["ddgi"].settings
 
 
 @pytest.mark.parametrize("given", ["1", "-0.1", "much", "0.9,,0.8"])

@@ -11,7 +11,13 @@ import numpy as np
 import pytest
 
 from glrt.analysis import reference
-from glrt.analysis.reference import OTHER_NUMBERS, Reference, closed_form, reference_for
+from glrt.analysis.reference import (
+    OTHER_NUMBERS,
+    Budget,
+    Reference,
+    closed_form,
+    reference_for,
+)
 from glrt.core.resources import folder
 from glrt.error.estimate import relative_error
 from glrt.gpu import glsl
@@ -99,7 +105,7 @@ def test_an_even_furnace_is_known_in_closed_form(scene: Scene, level: float | No
 
 def test_a_closed_form_is_what_is_rendered(context: Context, cache: Path) -> None:
     scene = furnace()
-    truth = reference_for(scene, small(scene), context, 0.1, 1)
+    truth = reference_for(scene, small(scene), context, Budget(0.1, 1))
     assert (truth.samples, truth.error) == (0, 0)
     renderer = Renderer(scene, small(scene, bounces=500, method="naive"), context)
     assert truth.squared_error(renderer.render(256).image().radiance) < 0.02**2
@@ -110,7 +116,7 @@ def test_a_closed_form_is_what_is_rendered(context: Context, cache: Path) -> Non
 def test_a_closed_form_has_the_size_of_the_crop(context: Context) -> None:
     scene = furnace()
     cropped = settings_for(small(scene), crop=(1, 2, 3, 4))
-    assert reference_for(scene, cropped, context, 0.1, 1).radiance.shape == (4, 3, 3)
+    assert reference_for(scene, cropped, context, Budget(0.1, 1)).radiance.shape == (4, 3, 3)
 
 
 def test_a_reference_that_is_given_up_is_not_kept(context: Context, cache: Path) -> None:
@@ -123,7 +129,7 @@ def test_a_reference_that_is_given_up_is_not_kept(context: Context, cache: Path)
         return True
 
     with pytest.raises(TimeoutError):
-        reference_for(LIT, small(LIT), context, 1e-9, 1e9, check=check)
+        reference_for(LIT, small(LIT), context, Budget(1e-9, 1e9), check=check)
     assert len(calls) == 3
     assert not cache.exists()
 
@@ -131,16 +137,16 @@ def test_a_reference_that_is_given_up_is_not_kept(context: Context, cache: Path)
 def test_a_reference_comes_from_the_cache_the_second_time(
     context: Context, cache: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    first = reference_for(LIT, small(LIT), context, 0.5, 5)
+    first = reference_for(LIT, small(LIT), context, Budget(0.5, 5))
     assert not np.array_equal(first.first, first.second), "independent halves"
     with monkeypatch.context() as patch:
         patch.setattr(reference, "Renderer", None)
-        again = reference_for(LIT, small(LIT), context, 0.5, 5)
+        again = reference_for(LIT, small(LIT), context, Budget(0.5, 5))
     assert np.array_equal(again.first, first.first)
     assert np.array_equal(again.second, first.second)
     assert (again.samples, again.error) == (first.samples, first.error)
-    reference_for(LIT, small(LIT, width=9), context, 0.5, 5)
-    reference_for(furnace(even=lamp(0.5, 0.5)), small(LIT), context, 0.5, 5)
+    reference_for(LIT, small(LIT, width=9), context, Budget(0.5, 5))
+    reference_for(furnace(even=lamp(0.5, 0.5)), small(LIT), context, Budget(0.5, 5))
     assert len(list(cache.iterdir())) == 3
 
 
@@ -165,7 +171,7 @@ class Noisy:
 
 def test_a_reference_takes_no_more_samples_than_a_picture_holds() -> None:
     halves: Any = [Noisy(1.0), Noisy(2.0)]
-    found = reference._rendered(halves, 1e-9, 60.0, None, None)
+    found = reference._rendered(halves, Budget(1e-9, 60.0), None, None)
     assert found.samples == MAX_SAMPLES
     assert [max(half.taken) for half in halves] == [MAX_SAMPLES] * 2
 
@@ -223,10 +229,10 @@ def test_references_show_the_same_picture(context: Context) -> None:
 
 @pytest.mark.parametrize("damage", [b"", b"no archive", None])
 def test_a_damaged_cache_is_made_again(context: Context, cache: Path, damage: bytes | None) -> None:
-    first = reference_for(LIT, small(LIT), context, 0.5, 5)
+    first = reference_for(LIT, small(LIT), context, Budget(0.5, 5))
     (file,) = cache.iterdir()
     file.write_bytes(file.read_bytes()[:200] if damage is None else damage)
-    again = reference_for(LIT, small(LIT), context, 0.5, 5)
+    again = reference_for(LIT, small(LIT), context, Budget(0.5, 5))
     assert np.array_equal(again.first, first.first)
 
 
@@ -235,12 +241,12 @@ def test_a_cache_that_cannot_be_written_is_done_without(
 ) -> None:
     (tmp_path / "file").touch()
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
-    assert reference_for(LIT, small(LIT), context, 0.5, 5).samples
+    assert reference_for(LIT, small(LIT), context, Budget(0.5, 5)).samples
 
 
 def test_samples_double_until_the_error_is_reached(context: Context) -> None:
-    coarse = reference_for(LIT, small(LIT), context, 0.5, 10)
-    fine = reference_for(LIT, small(LIT), context, 0.02, 10)
+    coarse = reference_for(LIT, small(LIT), context, Budget(0.5, 10))
+    fine = reference_for(LIT, small(LIT), context, Budget(0.02, 10))
     assert fine.error <= 0.02 < coarse.error
     assert fine.samples > coarse.samples
 
@@ -253,7 +259,7 @@ def test_counted_samples_end_a_reference_whatever_the_clock_says(
     clock = SimpleNamespace(perf_counter=lambda: next(hours))
     monkeypatch.setattr(reference, "time", clock)
     ends = [
-        reference_for(LIT, small(LIT), context, 1e-9, math.inf, samples=most).samples
+        reference_for(LIT, small(LIT), context, Budget(1e-9, math.inf, most)).samples
         for most in (255, 256, 1)
     ]
     assert ends == [128, 256, 64]
@@ -264,7 +270,7 @@ def test_a_reference_follows_paths_far_beyond_the_settings(context: Context) -> 
     """In a closed box of albedo 0.9 with glowing walls, 4 bounces leave 59 % of the light."""
     walls = {"wall": lamp(0.1, 0.9)}
     box = scene_of(box_of_quads("wall", 2.0), walls)
-    truth = reference_for(box, small(box), context, 0.01, 5)
+    truth = reference_for(box, small(box), context, Budget(0.01, 5))
     assert truth.bounces == reference.BOUNCES
     assert truth.radiance.mean() == pytest.approx(1.0, rel=0.01)
 
@@ -274,7 +280,7 @@ def test_a_reference_follows_paths_far_beyond_the_settings(context: Context) -> 
 def test_the_loop_limit_bounds_the_paths(context: Context) -> None:
     walls = [plane([0, 0, -3 - i], [0, 0, 1], "lamp") for i in range(400)]
     scene = scene_of(walls, {"lamp": lamp()})
-    truth = reference_for(scene, small(scene), context, 1.0, 0.1)
+    truth = reference_for(scene, small(scene), context, Budget(1.0, 0.1))
     assert small(scene).bounces <= truth.bounces < reference.BOUNCES
 
 
@@ -287,11 +293,11 @@ def test_every_shader_file_is_part_of_the_name_of_a_reference(
     shutil.copytree(folder("shaders_glsl"), shaders)
     for module in (glsl, reference):
         monkeypatch.setattr(module, "folder", lambda name: tmp_path / name)
-    names = {reference._key(LIT, small(LIT), context, 0.1, 1.0, 64)}
+    names = {reference._key(LIT, small(LIT), context, Budget(0.1, 1.0, 64))}
     files = glsl.shader_files()
     for file in files:
         before = file.read_text()
         file.write_text(f"{before}// another\n")
-        names.add(reference._key(LIT, small(LIT), context, 0.1, 1.0, 64))
+        names.add(reference._key(LIT, small(LIT), context, Budget(0.1, 1.0, 64)))
         file.write_text(before)
     assert len(names) == 1 + len(files)

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from glrt.analysis.reference import reference_for
+from glrt.analysis.reference import Budget, reference_for
 from glrt.gpu.context import Context
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for
@@ -25,7 +25,9 @@ def test_another_content_of_a_file_is_another_reference(
         sky = {"image": "sky.exr"}
         scenes.append(Scene.build(table, background=sky, folder=tmp_path))
     one, other = (
-        reference_for(scene, settings_for(scene.render, width=16, height=8), context, 0.5, 5)
+        reference_for(
+            scene, settings_for(scene.render, width=16, height=8), context, Budget(0.5, 5)
+        )
         for scene in scenes
     )
     assert len(list((tmp_path / "glrt/references").iterdir())) == 2

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from glrt.analysis.reference import reference_for
+from glrt.analysis.reference import Budget, reference_for
 from glrt.cli import autosave
 from glrt.cli.main import main
 from glrt.core.errors import RenderError
@@ -231,12 +231,12 @@ def test_dispatches_that_take_too_long_become_smaller(
 # --- a cache that two share --------------------------------------------------------------------
 
 REFERENCE = """
-from glrt.analysis.reference import reference_for
+from glrt.analysis.reference import Budget, reference_for
 from glrt.gpu.context import open_context
 from glrt.image.sources import load
 from glrt.settings import Settings
 for _ in range(3):
-    reference_for(load("cornell"), Settings(width=8, height=8), open_context(), 0.9, 0.1)
+    reference_for(load("cornell"), Settings(width=8, height=8), open_context(), Budget(0.9, 0.1))
 """
 
 
@@ -250,7 +250,7 @@ def test_two_processes_may_share_a_cache(
     assert [process.wait(timeout=250) for process in both] == [0, 0]
     (kept,) = (tmp_path / "glrt" / "references").iterdir()
     before = kept.read_bytes()
-    found = reference_for(load("cornell"), Settings(width=8, height=8), context, 0.9, 0.1)
+    found = reference_for(load("cornell"), Settings(width=8, height=8), context, Budget(0.9, 0.1))
     assert found.samples > 0
     assert np.isfinite(found.first).all()
     assert kept.read_bytes() == before, "it was read, not made again"

@@ -12,7 +12,7 @@ from glrt.analysis import reference as references
 from glrt.analysis.method_choice.candidate import Candidate
 from glrt.analysis.method_choice.search import Verdict
 from glrt.analysis.method_choice.trial import LIMITS
-from glrt.analysis.reference import Reference, reference_for
+from glrt.analysis.reference import Budget, Reference, reference_for
 from glrt.gpu.context import Context
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
@@ -52,8 +52,8 @@ class Judge:
     def truth(self) -> Reference:
         """A reference of random numbers of its own."""
         with patch.object(references, "SEEDS", TRUTH_SEEDS):
-            error = 0.1 * self.verdict.error
-            return reference_for(self.scene, self.best.settings, self.context, error, TRUTH_SECONDS)
+            budget = Budget(0.1 * self.verdict.error, TRUTH_SECONDS)
+            return reference_for(self.scene, self.best.settings, self.context, budget)
 
     @cached_property
     def choice(self) -> Found:

@@ -4,7 +4,7 @@ from typing import Any
 
 from glrt.analysis.method_choice import search
 from glrt.analysis.method_choice.candidate import Bias, Candidate
-from glrt.analysis.method_choice.search import Verdict, what_suffices
+from glrt.analysis.method_choice.search import Question, Verdict, what_suffices
 from glrt.gpu.context import Context
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for
@@ -16,7 +16,7 @@ SIZE, LARGER = 16, 24  # pixels of a frame
 def verdict_on(scene: Scene, error: float, context: Context, **more: Any) -> Verdict:
     size = {"width": search.HEIGHT, "height": search.HEIGHT}
     settings = settings_for(scene.render, **size)
-    return what_suffices(scene, settings, error, context, **more)
+    return what_suffices(scene, settings, Question(error, **more), context)
 
 
 def candidate(verdict: Verdict, method: str) -> Candidate:

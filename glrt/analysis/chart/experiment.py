@@ -11,7 +11,7 @@ from glrt.analysis.chart import flip
 from glrt.analysis.chart.curves import Curve, curves_of
 from glrt.analysis.chart.measure import Bench, Look, Round, Run
 from glrt.analysis.chart.rays import Rays, rays_of
-from glrt.analysis.reference import Reference, reference_for
+from glrt.analysis.reference import Budget, Reference, reference_for
 from glrt.analysis.variants import Variant, variants_of
 from glrt.core import files
 from glrt.core.version import VERSION
@@ -105,7 +105,8 @@ def measure_scene(
     def report_reference(share: float) -> None:
         report(f"{name}: reference", share * allowed / whole)
 
-    reference = reference_for(scene, settings, context, REFERENCE_ERROR, allowed, report_reference)
+    budget = Budget(REFERENCE_ERROR, allowed)
+    reference = reference_for(scene, settings, context, budget, report_reference)
     rays = tuple(rays_of(scene, variant.settings, context) for variant in variants)
     key = key_of(scene, variants, reference, place)
     rounds = load_rounds(rounds_file, key)

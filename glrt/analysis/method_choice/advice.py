@@ -4,7 +4,7 @@ import argparse
 import math
 import sys
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from typing import NamedTuple
@@ -12,7 +12,7 @@ from typing import NamedTuple
 from glrt.analysis.chart.page import number, percent
 from glrt.analysis.method_choice.candidate import Candidate
 from glrt.analysis.method_choice.denoised import DenoisedChoice, denoised_choice
-from glrt.analysis.method_choice.search import TIE, WITHOUT_PROBES, Verdict, what_suffices
+from glrt.analysis.method_choice.search import TIE, Question, Verdict, what_suffices
 from glrt.analysis.method_choice.trial import LEADER, OutOfTimeError, Tell
 from glrt.core.errors import UsageError
 from glrt.gpu.context import open_context
@@ -41,7 +41,8 @@ class Choice(NamedTuple):
 
 def advise(arguments: argparse.Namespace, scene: Scene, settings: Settings) -> None:
     """Measure and print what reaches `arguments.error`, with `arguments.bounces` if given."""
-    verdict = _verdict(arguments, scene, settings, arguments.error, methods=tuple(METHODS))
+    asked = Question(arguments.error, methods=tuple(METHODS))
+    verdict = _verdict(arguments, scene, settings, asked)
     print("\n" + "\n".join(advice(scene, verdict)), flush=True)
     if verdict.best:
         context = open_context(arguments.context)
@@ -79,7 +80,7 @@ def choose(
         raise UsageError("--method auto chooses the method by the requested error: give --error E.")
     left = math.inf if limits.deadline is None else limits.deadline - time.perf_counter()
     try:
-        verdict = _verdict(arguments, scene, settings, limits.error, SHARE * left)
+        verdict = _verdict(arguments, scene, settings, Question(limits.error, seconds=SHARE * left))
     except OutOfTimeError:
         settings = settings_for(settings, method=LEADER)
         _report(arguments, _undecided(settings))
@@ -98,15 +99,13 @@ def _verdict(
     arguments: argparse.Namespace,
     scene: Scene,
     settings: Settings,
-    error: float,
-    seconds: float = math.inf,
-    methods: Sequence[str] = WITHOUT_PROBES,
+    asked: Question,
 ) -> Verdict:
     context = open_context(arguments.context)
     try:
         with _steps(arguments) as report:
-            fixed = _bounces_given(arguments)
-            return what_suffices(scene, settings, error, context, fixed, seconds, report, methods)
+            asked = asked._replace(bounces=_bounces_given(arguments))
+            return what_suffices(scene, settings, asked, context, report)
     finally:
         context.gl.release()
 

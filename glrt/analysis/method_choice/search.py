@@ -4,11 +4,12 @@ import math
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from glrt.analysis.method_choice.candidate import Bias, Candidate
 from glrt.analysis.method_choice.trial import LEADER, Tell, Trial, until
 from glrt.analysis.method_choice.work import busy_pixels, counting, work_per_sample
-from glrt.analysis.reference import Reference, reference_for, unlimited
+from glrt.analysis.reference import Budget, Reference, reference_for, unlimited
 from glrt.analysis.variants import variants_of
 from glrt.gpu.context import Context
 from glrt.plan.methods import BIASED, METHODS
@@ -69,24 +70,29 @@ def _silent(_step: str) -> None:
     pass
 
 
+class Question(NamedTuple):
+    """What a method is wanted for."""
+
+    error: float
+    bounces: int | None = None  # the limit of all methods; None: choose it, too
+    seconds: float = math.inf
+    methods: Sequence[str] = WITHOUT_PROBES
+
+
 def what_suffices(
     scene: Scene,
     settings: Settings,
-    error: float,
+    asked: Question,
     context: Context,
-    bounces: int | None = None,
-    seconds: float = math.inf,
     report: Tell = _silent,
-    methods: Sequence[str] = WITHOUT_PROBES,
 ) -> Verdict:
-    """Measure methods on a small frame; `bounces` is their limit, or None to choose it, too.
-
-    `report` is called with the name of each step.
+    """Measure methods on a small frame; `report` is called with the name of each step.
 
     The result is the same on every run of a driver, unless `seconds` end it: then methods that are
     not measured yet are left out. Raises OutOfTimeError if no number of bounces is known to suffice
     by then.
     """
+    error, bounces, seconds, methods = asked
     check = until(time.perf_counter() + seconds) if seconds < math.inf else _always
     small = _small_frame(settings)
     small = small if bounces is None else settings_for(small, bounces=bounces)
@@ -97,9 +103,8 @@ def what_suffices(
         longest = unlimited(scene, small, context).bounces
         samples = _reference_samples(work_per_sample(counter, longest, check), small)
         allowed = _reference_seconds(seconds)
-        reference = reference_for(
-            scene, small, context, 0.25 * error, allowed, check=check, samples=samples
-        )
+        budget = Budget(0.25 * error, allowed, samples)
+        reference = reference_for(scene, small, context, budget, check=check)
         trial = Trial(scene, settings, context, reference, error, pixels, check, report)
         limits = trial.limits(counter, bounces, reference.bounces)
     beyond = {limit: candidate.bias for limit, candidate in limits.items()}

@@ -8,10 +8,10 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
 from glrt.analysis.chart.rays import Rays, rays_of
-from glrt.analysis.motion.playing import play
+from glrt.analysis.motion.playing import Played, play
 from glrt.analysis.motion.sequences import Sequence as Frames
 from glrt.analysis.motion.sequences import light_step, orbit
-from glrt.analysis.reference import Reference, reference_for
+from glrt.analysis.reference import Budget, Reference, reference_for
 from glrt.gpu.context import Context
 from glrt.rendering.history.temporal import Way
 from glrt.rendering.probe_tracer import LOOKS, PUSHED, UPDATES
@@ -39,20 +39,20 @@ class Seen(NamedTuple):
         return math.sqrt(max(self.squared_error, 0.0))
 
 
-class Played(NamedTuple):
-    """One way to play a sequence, with the name of its track."""
-
-    name: str
-    settings: Settings
-    way: Way
-    hysteresis: float | None = None  # of live probes
-
-
-def by_probes(settings: Settings, hysteresis: Sequence[float]) -> list[Played]:
+def by_probes(settings: Settings, hysteresis: Sequence[float]) -> dict[str, Played]:
     """Ways to play by `ddgi`: with new probes for each picture, and live by each hysteresis."""
     own, alone = settings_for(settings, method="ddgi", sampler="sobol"), Way("reset")
-    live = [Played(f"ddgi, live {kept:g}", own, alone, kept) for kept in hysteresis]
-    return [Played("ddgi", own, alone), *live] if live else []
+    live = {f"ddgi, live {kept:g}": Played(own, alone, kept) for kept in hysteresis}
+    return {"ddgi": Played(own, alone), **live} if live else {}
+
+
+class TrackPlan(NamedTuple):
+    """What tracks show, and how much work they are."""
+
+    ways: Sequence[Way]
+    hysteresis: Sequence[float]  # of live probes: a track for each, and one with new probes
+    reference_samples: int  # of each half of a frame's reference, at most
+    samples: int = 1  # of each frame
 
 
 class Track(NamedTuple):
@@ -74,20 +74,16 @@ def tracks_of(
     scene: Scene,
     settings: Settings,
     context: Context,
-    ways: Sequence[Way],
-    reference_samples: int,
+    plan: TrackPlan,
     report: Tell,
-    samples: int = 1,
-    hysteresis: Sequence[float] = (),
 ) -> list[Track]:
-    """Tracks of the orbit and the light step of a scene, by each way at `samples` a frame.
+    """Tracks of the orbit and the light step of a scene, by each way of the plan.
 
-    For each `hysteresis` there is a track of live probes, and one with new probes for each picture.
-    Each frame that is looked at has a reference of its own: two halves of at most
-    `reference_samples` samples.
+    Each frame that is looked at has a reference of its own, in two halves.
     """
-    all_played = [Played(way.name, settings, way) for way in ways] + by_probes(settings, hysteresis)
-    rays = {one: rays_of(scene, one, context) for one in {p.settings for p in all_played}}
+    plain = {way.name: Played(settings, way) for way in plan.ways}
+    all_played = plain | by_probes(settings, plan.hysteresis)
+    rays = {one: rays_of(scene, one, context) for one in {p.settings for p in all_played.values()}}
     found = []
     sequences = orbit(scene, FRAMES, DEGREES), light_step(scene, FRAMES, BEFORE, FACTOR)
     for place, frames in enumerate(sequences):
@@ -96,13 +92,14 @@ def tracks_of(
         for done, look in enumerate(looks):
             report(f"{name}, {frames.name}: references", (place + 0.8 * done / len(looks)) / 2)
             known = [truth[n] for n in truth if frames.scenes[n] == frames.scenes[look]]
-            wanted = frames.scenes[look], settings, context, 0.0, math.inf
-            truth[look] = known[0] if known else reference_for(*wanted, samples=reference_samples)
-        for number, one in enumerate(all_played):
+            budget = Budget(0.0, math.inf, plan.reference_samples)
+            wanted = frames.scenes[look], settings, context, budget
+            truth[look] = known[0] if known else reference_for(*wanted)
+        for number, (mode, one) in enumerate(all_played.items()):
             share = (place + 0.8 + 0.2 * number / len(all_played)) / 2
-            report(f"{name}, {frames.name}: {one.name}", share)
-            seen = _seen(frames, truth, rays[one.settings], context, one, samples)
-            found.append(Track(name, frames.name, one.name, tuple(seen)))
+            report(f"{name}, {frames.name}: {mode}", share)
+            seen = _seen(frames, truth, rays[one.settings], context, one, plan.samples)
+            found.append(Track(name, frames.name, mode, tuple(seen)))
     return found
 
 
@@ -123,14 +120,12 @@ def _seen(
     samples: int,
 ) -> Iterator[Seen]:
     first = 0 if frames.name == "orbit" else BEFORE
-    before, way = None, one.way
+    before = None
     more: list[float] = []
-    kept = one.hysteresis
-    played = play(frames, one.settings, context, way, samples, more=more, hysteresis=kept)
-    for number, picture in enumerate(played):
+    for number, picture in enumerate(play(frames, one, context, samples, more)):
         is_new = frames.scenes[number] != before
         before = frames.scenes[number]
-        found = SURFACES if way.mode != "reset" and is_new else 0.0
+        found = SURFACES if one.way.mode != "reset" and is_new else 0.0
         if number in truth:
             squared = truth[number].squared_error(picture)
             own = rays.sample * (samples + more[-1]) + _of_probes(rays, one, number, is_new, frames)

@@ -1,7 +1,7 @@
 """Play a moving picture as a temporal mode shows it: without a window and without a clock."""
 
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, NamedTuple
 
 import moderngl
 import numpy as np
@@ -17,15 +17,21 @@ from glrt.settings import Settings
 Picture = NDArray[np.float32]  # (H, W, 3) radiance, row 0 on top
 
 
+class Played(NamedTuple):
+    """One way to play a sequence."""
+
+    settings: Settings
+    way: Way
+    hysteresis: float | None = None  # of live probes
+    pipeline: Pipeline = "auto"
+
+
 def play(
     sequence: Sequence,
-    settings: Settings,
+    played: Played,
     context: Context,
-    way: Way,
     samples: int = 1,
-    pipeline: Pipeline = "auto",
     more: list[float] | None = None,
-    hysteresis: float | None = None,
 ) -> Iterator[Picture]:
     """Yield what is on the screen at the end of each frame, with `samples` per pixel and frame.
 
@@ -34,8 +40,8 @@ def play(
     a hysteresis, probes continue from frame to frame, and each frame restarts the film, whether or
     not something moves.
     """
-    first = sequence.scenes[0]
-    renderer = Renderer(first, settings, context, pipeline=pipeline)
+    settings, way, hysteresis, pipeline = played
+    renderer = Renderer(sequence.scenes[0], settings, context, pipeline=pipeline)
     temporal = Temporal(context.gl, way)
     last: Scene | None = None
     try:

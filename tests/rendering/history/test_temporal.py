@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from glrt.analysis.motion.playing import play, screen_of
+from glrt.analysis.motion.playing import Played, play, screen_of
 from glrt.analysis.motion.sequences import Sequence, orbit
 from glrt.gpu.context import Context, Pipeline
 from glrt.image.sources import load
@@ -40,7 +40,7 @@ def pictures(
     scenes: tuple[Scene, ...], context: Context, mode: Mode, pipeline: Pipeline = "auto"
 ) -> list[np.ndarray]:
     sequence = Sequence("test", scenes)
-    return [*play(sequence, settings(scenes[0]), context, Way(mode), 1, pipeline)]
+    return [*play(sequence, Played(settings(scenes[0]), Way(mode), pipeline=pipeline), context)]
 
 
 def film_of(scene: Scene, context: Context, samples: int = 1, **more: object) -> np.ndarray:

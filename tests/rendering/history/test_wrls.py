@@ -9,7 +9,7 @@ import moderngl
 import numpy as np
 import pytest
 
-from glrt.analysis.motion.playing import play, read_texture
+from glrt.analysis.motion.playing import Played, play, read_texture
 from glrt.analysis.motion.sequences import Sequence, orbit
 from glrt.gpu.context import Context
 from glrt.image.sources import load
@@ -233,7 +233,7 @@ def test_a_wall_that_becomes_brighter_is_followed(context: Context, predictor: P
     scenes = (*[wall()] * 8, *[bright.model_copy(update={"title": str(n)}) for n in range(8)])
     size = {"width": SIZE[0], "height": SIZE[1], "sampler": "independent"}
     settings = settings_for(scenes[0].render, **size)
-    shown = [*play(Sequence("step", scenes), settings, context, Way("wrls", predictor))]
+    shown = [*play(Sequence("step", scenes), Played(settings, Way("wrls", predictor)), context)]
     assert shown[7] == pytest.approx(0.5, rel=1e-3)
     first, last = shown[8] / 1.5, shown[15] / 1.5
     if predictor == "published":
@@ -249,11 +249,13 @@ def test_an_orbit_is_clearer(context: Context, predictor: Predictor) -> None:
     scene = load("cornell")
     frames = orbit(scene, 24, 1.0)
     settings = settings_for(scene.render, width=24, height=24, sampler="independent")
-    truth = [*play(Sequence("still", frames.scenes[23:]), settings, context, Way("reset"), 512)][-1]
+    truth = [
+        *play(Sequence("still", frames.scenes[23:]), Played(settings, Way("reset")), context, 512)
+    ][-1]
     squared = []
     ways: list[tuple[Mode, Predictor]] = [("reset", "published"), ("wrls", predictor)]
     for mode, way in ways:
-        *_, last = play(frames, settings, context, Way(mode, way), 2)
+        *_, last = play(frames, Played(settings, Way(mode, way)), context, 2)
         dark = truth.max(axis=2) < 3
         squared.append(float(np.square(np.minimum(last, 1) - np.minimum(truth, 1))[dark].mean()))
     assert squared[1] < 0.5 * squared[0]
@@ -271,5 +273,5 @@ def test_a_view_under_other_light_is_right_once_it_has_samples(
     scenes = (*[wall()] * 16, *[dim] * 4)
     size = {"width": SIZE[0], "height": SIZE[1], "sampler": "independent"}
     settings = settings_for(scenes[0].render, **size)
-    *_, last = play(Sequence("step", scenes), settings, context, Way("wrls", predictor))
+    *_, last = play(Sequence("step", scenes), Played(settings, Way("wrls", predictor)), context)
     assert last == pytest.approx(0.125, rel=0.02)
