@@ -5,7 +5,7 @@ from typing import Unpack
 
 from glrt.gpu.context import Choice, Context
 from glrt.image.image import Image
-from glrt.rendering.paths.replay import pixel_paths
+from glrt.rendering.paths.replay import Selection, pixel_paths
 from glrt.rendering.paths.values import PixelPaths
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
@@ -58,4 +58,4 @@ def paths(
     fails, and SceneError for a scene beyond the limits of the driver.
     """
     wanted = settings_for(scene.render, samples=samples, **settings)
-    return pixel_paths(scene, wanted, pixel, numbers, context=context)
+    return pixel_paths(scene, wanted, pixel, Selection(numbers), context)

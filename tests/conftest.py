@@ -18,7 +18,7 @@ from glrt.gpu import driver_checks
 from glrt.gpu.context import Context, open_context
 from glrt.plan.facts import SceneFacts
 from glrt.plan.features import needs_of
-from glrt.rendering.shader_functions import evaluate
+from glrt.rendering.shader_functions import Expression, World, evaluate
 from glrt.scene import scene as scene_module
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for
@@ -137,8 +137,8 @@ def call_glsl(ctx: moderngl.Context) -> CallGlsl:
             settings = settings_for(scene.render, sampler="independent", **(options or {}))
             prelude = needs_of(SceneFacts(scene), settings).constants()
         prelude |= constants or {}
-        ways = returns, setup, functions, scene, prelude
-        return evaluate(ctx, expression, inputs, *ways, settings=settings)
+        text: Expression = {"returns": returns, "setup": setup, "functions": functions}
+        return evaluate(ctx, expression, inputs, World(scene, settings, prelude), **text)
 
     return call
 

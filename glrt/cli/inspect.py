@@ -94,7 +94,7 @@ def _kernel(arguments: argparse.Namespace, scene: Scene, settings: Settings) -> 
     context = open_context(arguments.context, arguments.pipeline)
     try:
         recipe, pipeline = recipe_of(arguments.scene), arguments.pipeline
-        renderer = open_renderer(scene, settings, recipe, context, "baked", pipeline)
+        renderer = open_renderer(scene, settings, recipe, context, tier="baked", pipeline=pipeline)
         text = renderer.shaders[-1].text
         renderer.release()
         return text

@@ -87,20 +87,25 @@ def run(arguments: argparse.Namespace) -> int:
 def _show(arguments: argparse.Namespace) -> int:
     scene, settings, pixel = _asked(arguments)
     from glrt.rendering.paths.file import paths_to_json
-    from glrt.rendering.paths.replay import pixel_paths
+    from glrt.rendering.paths.replay import (
+        Selection,
+        check_selection,
+        path_replay,
+        selected_paths,
+    )
 
     recipe = recipe_of(arguments.scene)
     if recipe and recipe.traced:
         _report("the picture was relit in the window: its light now is traced, not its layers.")
     if recipe and recipe.partition:
         _report(f"the picture is a part of a render: all {settings.samples} samples are traced.")
-    found = pixel_paths(
-        *(scene, settings, pixel, arguments.numbers),
-        brightest=0 if arguments.numbers else arguments.brightest or 1,
-        context=arguments.context,
-        apart=recipe.apart if recipe else "repeated",
-        particles=arguments.brightest or 1,
-    )
+    most = arguments.brightest or 1
+    wanted = Selection(arguments.numbers, 0 if arguments.numbers else most, most)
+    check_selection(pixel, wanted, settings)
+    traced = scene, settings, arguments.context
+    apart = recipe.apart if recipe else "repeated"
+    with path_replay(*traced, apart=apart) as (replay, own):
+        found = selected_paths(replay, own, pixel, wanted)
     text = paths_to_json(found) if arguments.json or arguments.output else ""
     if arguments.output:
         files.write_text(File(arguments.output), text + "\n")

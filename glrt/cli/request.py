@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import get_args
+from typing import TypedDict, Unpack, get_args
 
 from glrt.cli.options import file_rules, is_automatic, settings_given
 from glrt.core.errors import UsageError
@@ -119,11 +119,9 @@ def opened(order: Order, arguments: argparse.Namespace) -> Renderer:
     route, pipeline = arguments.context, arguments.pipeline
     if order.begun is None:
         recipe = recipe_of(arguments.scene)
-        return open_renderer(
-            *(order.scene, order.settings, recipe, route, "baked", pipeline),
-            order.part,
-            order.decisions,
-        )
+        own: Opening = {"tier": "baked", "pipeline": pipeline}
+        own |= {"part": order.part, "decisions": order.decisions}
+        return open_renderer(order.scene, order.settings, recipe, route, **own)
     recipe = recipe_to_resume(order.begun)
     if pipeline == "auto" and recipe.pipeline == "fragment":
         pipeline = "fragment"
@@ -138,15 +136,21 @@ def opened(order: Order, arguments: argparse.Namespace) -> Renderer:
         return renderer.resume(order.begun)
 
 
+class Opening(TypedDict, total=False):
+    """Options of a renderer, as in `Renderer`."""
+
+    tier: Tier
+    pipeline: Pipeline
+    part: tuple[int, int] | None
+    decisions: Mapping[str, str]
+
+
 def open_renderer(
     scene: Scene,
     settings: Settings,
     recipe: Recipe | None,
     context: Context | Choice = "auto",
-    tier: Tier = "generic",
-    pipeline: Pipeline = "auto",
-    part: tuple[int, int] | None = None,
-    decisions: Mapping[str, str] = {},
+    **options: Unpack[Opening],
 ) -> Renderer:
     """Return a renderer of a scene; `recipe`: of the picture that the scene came from.
 
@@ -156,15 +160,10 @@ def open_renderer(
     light = recipe.traced if recipe else None
     apart: Apart = recipe.apart if recipe else "repeated"
     if not (recipe and light and _is_shown(recipe, scene, settings)):
-        return Renderer(
-            *(scene, settings, context, tier, pipeline),
-            part=part,
-            decisions=decisions,
-            apart=apart,
-        )
+        return Renderer(scene, settings, context, apart=apart, **options)
     before = settings_for(settings, bounces=light.bounces)
     traced = with_files_of(light.scene, scene)
-    renderer = Renderer(traced, before, context, tier, pipeline, light.layering, apart=apart)
+    renderer = Renderer(traced, before, context, layering=light.layering, apart=apart, **options)
     cost = renderer.update(scene, **dict(settings))
     if cost in (None, Cost.FREE, Cost.RELIGHT):
         renderer.plan = replace(renderer.plan, weights=light.weights)

@@ -10,6 +10,7 @@ from glrt.lab.scenes import lamp as emitter
 from glrt.lab.scenes import matte, plane, quad, scene_of
 from glrt.lab.sweep import SIGMAS, Array, Lab, Sweep, mean_of
 from glrt.rendering.pipelines import PLAIN, Variant
+from glrt.rendering.shader_functions import World
 from glrt.scene.scene import Scene
 from glrt.scene.shapes.quad import Quad
 from glrt.settings import Method
@@ -72,7 +73,7 @@ def lamps(lab: Lab) -> Sweep:
     for count in x:
         scene = _many_lamps(count)
         for found, setup in zip(noise, (CHOSEN, EVENLY), strict=True):
-            light = lab.path(RECEIVED, {"x": rows}, scene=scene, setup=setup).astype(np.float64)
+            light = lab.path(RECEIVED, {"x": rows}, World(scene), setup=setup).astype(np.float64)
             found.append(float(light.std() / light.mean()))
             if setup == CHOSEN and abs(light.mean() / _flux(scene) - 1) > tolerance(light):
                 wrong.append(count)

@@ -3,6 +3,7 @@
 import numpy as np
 
 from glrt.lab.sweep import Lab, Sweep
+from glrt.rendering.shader_functions import World
 from glrt.settings import BLOCKS
 
 SAMPLES = BLOCKS["sobol64"]
@@ -45,9 +46,9 @@ def dimensions(lab: Lab) -> Sweep:
             sums = lab.path(
                 "sum",
                 {"x": rows, "numbers": [count]},
+                World(constants={"BLOCK": BLOCKS[sampler]}),
                 setup=SUM,
                 functions=draw,
-                constants={"BLOCK": BLOCKS[sampler]},
             )
             means = sums.astype(np.float64) / SAMPLES
             errors[name].append(float(np.sqrt(np.mean((means - 1) ** 2)) / expected))

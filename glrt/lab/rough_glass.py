@@ -7,6 +7,7 @@ import numpy as np
 
 from glrt.lab.scenes import glass, lamp, matte, scene_of, sphere
 from glrt.lab.sweep import SIGMAS, Array, Lab, Sweep, mean_of
+from glrt.rendering.shader_functions import World
 from glrt.scene.scene import Scene
 
 ROUGHNESS = 0.3
@@ -37,7 +38,7 @@ def grazing(lab: Lab) -> Sweep:
     for cosine in x:
         wo = np.tile([np.sqrt(1 - cosine**2), 0, cosine], (count, 1))
         for name, setup in ways.items():
-            kept = lab.path("kept", {"u": lattice(count), "wo": wo}, scene=scene, setup=setup)
+            kept = lab.path("kept", {"u": lattice(count), "wo": wo}, World(scene), setup=setup)
             errors[name].append(abs(float(kept.astype(np.float64).mean()) - 1))
     first, *others = errors.items()
     return Sweep(
@@ -97,7 +98,7 @@ def _error(lab: Lab, scene: Scene, setup: str, count: int) -> float:
         for cosine in (1.0, 0.8, 0.5, 0.3, 0.1, 0.03):
             wo = np.tile([math.sqrt(1 - cosine**2), 0, cosine], (count, 1))
             given = {"u": points, "wo": wo, "outside": np.array([outside])}
-            kept = lab.path("kept", given, scene=scene, setup=setup)
+            kept = lab.path("kept", given, World(scene), setup=setup)
             worst = max(worst, abs(float(kept.astype(np.float64).mean()) - 1))
     return worst
 

@@ -7,6 +7,7 @@ import numpy as np
 from glrt.lab.lamps import CHOSEN, EVENLY, RECEIVED, tolerance
 from glrt.lab.scenes import Table, matte, plane, scene_of, sphere
 from glrt.lab.sweep import Array, Lab, Sweep
+from glrt.rendering.shader_functions import World
 from glrt.scene.lights.cone import Cone
 from glrt.scene.scene import Scene
 
@@ -31,7 +32,7 @@ def cone(lab: Lab) -> Sweep:
             found = lab.path(
                 what.replace("emitter_at(0)", "emitter_at(1)"),
                 {"direction": towards, **fields},
-                scene=scene_of([sphere([0, 0, -3], 1, "spot")], {"spot": _spot(spot)}),
+                World(scene_of([sphere([0, 0, -3], 1, "spot")], {"spot": _spot(spot)})),
             )
             truth = spot.shares(towards.astype(np.float64))
             errors[name].append(float(np.abs(found - truth).max()))
@@ -71,7 +72,7 @@ def spots(lab: Lab) -> Sweep:
     for count in x:
         scene = _ring(count)
         for name, setup in ways.items():
-            light = lab.path(RECEIVED, {"x": rows}, scene=scene, setup=setup).astype(np.float64)
+            light = lab.path(RECEIVED, {"x": rows}, World(scene), setup=setup).astype(np.float64)
             noise[name].append(float(light.std() / light.mean()))
             if setup == CHOSEN and abs(light.mean() / _flux() - 1) > tolerance(light) + _ROUNDED:
                 wrong.append(count)

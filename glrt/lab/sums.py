@@ -73,9 +73,9 @@ def _gather(lab: Lab, portion: dict[str, Any], means: Array, mixed: Array) -> tu
     """Add a portion of samples to the means; `mixed`: bits of a float, and count of bright ones."""
     given = {**portion, "bright": np.array([SHARE * 2**32], np.uint32)}
     result = "vec4(ours, plain, sum, coarse)"
-    means = lab.path(result, {**given, "state": means}, "vec4", setup=GATHER)
+    means = lab.path(result, {**given, "state": means}, returns="vec4", setup=GATHER)
     given |= {"state": mixed[:, 0].copy().view(np.float32), "total": mixed[:, 1].copy()}
-    return means, lab.path("uvec2(floatBitsToUint(mixed), hits)", given, "uvec2", setup=MIX)
+    return means, lab.path("uvec2(floatBitsToUint(mixed), hits)", given, returns="uvec2", setup=MIX)
 
 
 def _errors(means: Array, mixed: Array, count: int) -> Array:

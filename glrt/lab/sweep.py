@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 
@@ -12,8 +12,7 @@ from glrt.gpu.context import Context
 from glrt.image.image import Image
 from glrt.rendering.pipelines import PLAIN, Variant
 from glrt.rendering.renderer import Renderer
-from glrt.rendering.shader_functions import evaluate
-from glrt.scene.instancing import Apart
+from glrt.rendering.shader_functions import EMPTY, Expression, World, evaluate
 from glrt.scene.scene import Scene
 
 Array = np.ndarray[Any, Any]
@@ -75,21 +74,12 @@ class Lab:
         self,
         expression: str,
         inputs: Mapping[str, Any],
-        returns: str = "float",
-        scene: Scene | None = None,
-        setup: str = "",
-        functions: str = "",
-        constants: Mapping[str, bool | int] | None = None,
-        apart: Apart = "repeated",
+        world: World = EMPTY,
+        **text: Unpack[Expression],
     ) -> Array:
-        """Evaluate a GLSL expression of the path tracing functions over arrays (see `evaluate`).
-
-        The functions see `scene`, or an empty one. Every feature is compiled in; lamps are chosen
-        as in a render of the scene, unless `constants` say otherwise.
-        """
+        """Evaluate a GLSL expression of the path tracing functions over arrays (see `evaluate`)."""
         with self.context.gl as gl:
-            ways = returns, setup, functions, scene, constants, apart
-            return evaluate(gl, expression, inputs, *ways)
+            return evaluate(gl, expression, inputs, world, **text)
 
     def render(
         self, scene: Scene, samples: int, variant: Variant = PLAIN, **settings: Any

@@ -4,6 +4,7 @@ import numpy as np
 
 from glrt.lab.scenes import Table, matte, scene_of
 from glrt.lab.sweep import Array, Lab, Sweep
+from glrt.rendering.shader_functions import World
 from glrt.scene.files.named_meshes import MeshFile, mesh_of_arrays
 from glrt.scene.scene import Scene
 
@@ -102,7 +103,7 @@ def leave(lab: Lab) -> Sweep:
         expression = (
             "vec2((hit.shape != NO_SHAPE) != expected, (other.shape != NO_SHAPE) != expected)"
         )
-        found = lab.path(expression, rays, "vec2", scene=scene, setup=LEAVE)
+        found = lab.path(expression, rays, World(scene), returns="vec2", setup=LEAVE)
         wrong.append(found.mean(axis=0))
     ours, fixed = np.array(wrong).T.tolist()
     return Sweep(
@@ -131,7 +132,9 @@ def stretch(lab: Lab) -> Sweep:
     for factor in x:
         scene, rays = _on_a_flat_ball(ball, float(factor), rows)
         expression = "vec2(hit.shape != NO_SHAPE, other.shape != NO_SHAPE)"
-        found = lab.path(expression, rays, "vec2", scene, STRETCHED, apart="large")
+        found = lab.path(
+            expression, rays, World(scene, apart="large"), returns="vec2", setup=STRETCHED
+        )
         wrong.append(found.mean(axis=0))
     ours, naive = np.array(wrong).T.tolist()
     return Sweep(

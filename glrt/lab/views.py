@@ -6,6 +6,7 @@ from glrt.lab.rays import TEXTBOOK
 from glrt.lab.scenes import matte, scene_of, sphere
 from glrt.lab.sweep import Array, Lab, Sweep
 from glrt.packing.scene_arrays import pack_camera
+from glrt.rendering.shader_functions import World
 from glrt.scene.scene import Scene
 
 
@@ -29,11 +30,13 @@ def offset(lab: Lab) -> Sweep:
         truth = _hit_points(center - eye, direction)
         place = "surface_at(ray, Hit(sphere_distance(ray, sphere_at(0), 0), 0)).position"
         ray = "Ray ray = Ray(vec3(0.0), direction, NO_SHAPE, false);"
-        point = lab.path(place, {"direction": direction}, "vec3", scene, setup=ray)
+        point = lab.path(place, {"direction": direction}, World(scene), returns="vec3", setup=ray)
         ours.append(_distances(point - truth))
         given = {"direction": direction, "origin": eye[None], "center": center[None]}
         setup = "float t = textbook(origin, direction, center, 1.0);"
-        point = lab.path("origin + t * direction", given, "vec3", setup=setup, functions=TEXTBOOK)
+        point = lab.path(
+            "origin + t * direction", given, returns="vec3", setup=setup, functions=TEXTBOOK
+        )
         world.append(_distances(point - eye - truth))
     return Sweep(
         parameter="distance from the origin, in radii of the sphere",
@@ -76,17 +79,17 @@ def fov(lab: Lab) -> Sweep:
     pixel = random.integers(0, SIDE, (rows, 2)).astype(np.float32)
     seeds = {"seed": np.arange(rows, dtype=np.uint32), "pixel": pixel}
     setup = "Sampler rng = make_sampler(seed);"
-    jitter = lab.path("next_2d(rng)", seeds, "vec2", setup=setup)
+    jitter = lab.path("next_2d(rng)", seeds, returns="vec2", setup=setup)
     ours, book = [], []
     for angle in x:
         eye = {"position": [300, 400, 500], "look_at": [297, 396, 500], "fov": angle}
         scene = scene_of([], {}, eye, background={"color": [1, 1, 1]})
         truth, camera = _camera_rays(scene, pixel + jitter.astype(np.float64))
         ray = f"camera_ray(frame.camera, vec2({SIDE}.0), pixel, rng).direction"
-        found = lab.path(ray, seeds, "vec3", scene, setup=setup)
+        found = lab.path(ray, seeds, World(scene), returns="vec3", setup=setup)
         ours.append(_pixels_off(found, truth, angle))
         given = {**camera, "pixel": pixel, "jitter": jitter}
-        book.append(_pixels_off(lab.path(BOOK, given, "vec3"), truth, angle))
+        book.append(_pixels_off(lab.path(BOOK, given, returns="vec3"), truth, angle))
     return Sweep(
         parameter="vertical field of view, in degrees",
         measure=f"error of the direction, in pixels of {SIDE}\n(99 % quantile)",

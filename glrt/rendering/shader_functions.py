@@ -1,7 +1,7 @@
 """Evaluate functions of the path tracer over arrays, with a scene that they see."""
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, NamedTuple, TypedDict, Unpack
 
 import moderngl
 import numpy as np
@@ -29,24 +29,39 @@ from glrt.settings import Settings, settings_for
 Array = np.ndarray[Any, Any]
 
 
+class World(NamedTuple):
+    """The data that functions of the path tracer see."""
+
+    scene: Scene | None = None  # None: an empty one
+    settings: Settings | None = None  # of the frame; None: the scene's `[render]`
+    constants: Mapping[str, bool | int] = {}  # in place of a feature that is compiled in
+    apart: Apart = "repeated"  # meshes with trees of their own
+
+
+EMPTY = World()
+
+
+class Expression(TypedDict, total=False):
+    """The text around an expression, as in `Probe`."""
+
+    returns: str  # GLSL type of the result
+    setup: str  # statements before it
+    functions: str  # in front of main
+
+
 def evaluate(
     gl: moderngl.Context,
     expression: str,
     inputs: Mapping[str, Any],
-    returns: str = "float",
-    setup: str = "",
-    functions: str = "",
-    scene: Scene | None = None,
-    constants: Mapping[str, bool | int] | None = None,
-    apart: Apart = "repeated",
-    settings: Settings | None = None,
+    world: World = EMPTY,
+    **text: Unpack[Expression],
 ) -> Array:
     """Evaluate a GLSL expression of the path tracing functions over arrays (see `Probe`).
 
-    The functions see `scene`, or an empty one. Every feature is compiled in, and lamps are chosen
-    as in the scene, unless `constants` say otherwise. `apart` selects meshes with trees of their
-    own. The frame has `settings`, by default the scene's `[render]`. The context must be current.
+    Every feature is compiled in, and lamps are chosen as in the scene, unless the constants of
+    the world say otherwise. The context must be current.
     """
+    scene, settings, constants, apart = world
     settings = settings or (settings_for(scene.render) if scene else None)
     plan = prepare(scene, settings, apart=apart) if scene and settings else None
     tree = tree_of(plan.facts) if plan else None
@@ -55,11 +70,11 @@ def evaluate(
         **everything(),
         **(_choice(plan.facts) if plan else {}),
         **stack,
-        **(constants or {}),
+        **constants,
     }
     arrays = with_particles(pack_scene(plan.facts, tree), plan) if plan else no_rows()
     texts = {FILE: scene_text(gl, arrays, "generic")}
-    probe = Probe(expression, returns, setup, functions, path_files(), prelude, texts)
+    probe = Probe(expression, includes=path_files(), constants=prelude, texts=texts, **text)
     resources = resources_of(gl, plan, arrays, tree)
     try:
         return probe.run(gl, inputs, resources)

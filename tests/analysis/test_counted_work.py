@@ -197,8 +197,11 @@ def choice_by(
     """The choice where a measurement finds `mis`, or where it has no time."""
     ones = Reference(np.ones((1, 1, 3)), np.ones((1, 1, 3)), 1, 1)
 
-    def measure(*arguments: object) -> Verdict:
-        if arguments[-1] == -math.inf:
+    def measure(
+        arguments: object, scene: Scene, settings: Settings, asked: search.Question
+    ) -> Verdict:
+        del arguments, scene, settings
+        if asked.seconds == -math.inf:
             raise OutOfTimeError
         return Verdict(0.5, ones, (of_bias(0.0),), {})
 

@@ -11,13 +11,7 @@ import numpy as np
 import pytest
 
 from glrt.analysis import reference
-from glrt.analysis.reference import (
-    OTHER_NUMBERS,
-    Budget,
-    Reference,
-    closed_form,
-    reference_for,
-)
+from glrt.analysis.reference import OTHER_NUMBERS, Budget, Reference, closed_form, reference_for
 from glrt.core.resources import folder
 from glrt.error.estimate import relative_error
 from glrt.gpu import glsl

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from glrt.gpu.context import Context
-from glrt.rendering.paths.replay import pixel_paths
+from glrt.rendering.paths.replay import Selection, pixel_paths
 from glrt.rendering.paths.values import Path, PixelPaths
 from glrt.rendering.pipelines import Tier
 from glrt.rendering.renderer import Renderer
@@ -25,7 +25,7 @@ def replayed(
 ) -> PixelPaths:
     """All paths of a pixel of a small picture, or those with these numbers."""
     wanted = settings_for(scene.render, **{**SMALL, **settings})
-    return pixel_paths(scene, wanted, pixel, numbers, context=context, tier=tier)
+    return pixel_paths(scene, wanted, pixel, Selection(numbers), context, tier)
 
 
 def camera_picture(scene: Scene, context: Context, tier: Tier = "baked", **settings: Any) -> Any:

@@ -7,7 +7,7 @@ import pytest
 from imgui_bundle import imgui
 
 from glrt.rendering.paths.file import paths_from_json
-from glrt.rendering.paths.replay import path_replay, pixel_paths
+from glrt.rendering.paths.replay import Selection, path_replay, pixel_paths
 from glrt.rendering.paths.values import PixelPaths
 from glrt.settings import settings_for
 from glrt.view.state.path_explorer import FOLLOWED
@@ -157,8 +157,8 @@ def particles_of_a_pixel_are_listed_apart_as_the_command_does(hand: Hand) -> Non
 
     def again() -> PixelPaths:
         settings = settings_for(recipe.settings, samples=followed)
-        asked = recipe.scene, settings, found.pixel, ()
-        return pixel_paths(*asked, context=session.context, particles=8)
+        wanted = Selection((), particles=8)
+        return pixel_paths(recipe.scene, settings, found.pixel, wanted, session.context)
 
     expected = hand.there(again)
     assert expected.particles

@@ -71,7 +71,7 @@ def _silent(_step: str) -> None:
 
 
 class Question(NamedTuple):
-    """What a method is wanted for."""
+    """The request that a method must meet."""
 
     error: float
     bounces: int | None = None  # the limit of all methods; None: choose it, too

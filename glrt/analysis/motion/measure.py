@@ -47,7 +47,7 @@ def by_probes(settings: Settings, hysteresis: Sequence[float]) -> dict[str, Play
 
 
 class TrackPlan(NamedTuple):
-    """What tracks show, and how much work they are."""
+    """The ways that tracks show, and their numbers of samples."""
 
     ways: Sequence[Way]
     hysteresis: Sequence[float]  # of live probes: a track for each, and one with new probes

@@ -7,7 +7,7 @@ sampler, place of the pixel and number of the sample. Software drivers therefore
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -208,36 +208,53 @@ def check_context(context: Context) -> None:
         )
 
 
+class Selection(NamedTuple):
+    """The paths of a pixel that are wanted."""
+
+    numbers: Sequence[int] | None = None  # of samples; None: all
+    brightest: int = 0  # in place of the numbers: samples with most light, brightest first
+    particles: int = 64  # the particles that bring most light
+
+
+ALL = Selection()
+
+
 def pixel_paths(
     scene: Scene,
     settings: Settings,
     pixel: Pixel,
-    numbers: Sequence[int] | None = None,
-    brightest: int = 0,
+    wanted: Selection = ALL,
     context: Context | Choice = "auto",
     tier: Tier = "baked",
-    apart: Apart = "repeated",
-    particles: int = 64,
 ) -> PixelPaths:
-    """The radiance of all samples of a pixel, and the paths of some of them.
+    """The radiance of all samples of a pixel, and the paths of some of them."""
+    check_selection(pixel, wanted, settings)
+    with path_replay(scene, settings, context, tier) as (replay, recipe):
+        return selected_paths(replay, recipe, pixel, wanted)
 
-    Paths are those of the samples `numbers` (default: all), or of the `brightest` samples with most
-    light, brightest first. The `particles` particles that bring most light have paths as well.
-    """
+
+def check_selection(pixel: Pixel, wanted: Selection, settings: Settings) -> None:
+    """Raise UsageError for a pixel outside the picture, or a sample that does not exist."""
     check_pixel(pixel, settings)
-    check_samples(numbers or (), settings)
-    with path_replay(scene, settings, context, tier, apart) as (replay, recipe):
-        found = PixelPaths(recipe, pixel, replay.radiances(pixel, settings.samples), ())
-        if brightest:
-            wanted: Sequence[int] = found.brightest(brightest)
-        else:
-            wanted = range(settings.samples) if numbers is None else numbers
-        arriving = replay.particles(pixel)
-        if arriving:
-            names = arriving.brightest(particles)
-            traced = (replay.particle_path(pixel, *name) for name in names)
-            arriving = replace(arriving, paths=tuple(path for path in traced if path))
-        return replace(found, paths=replay.paths(pixel, wanted), particles=arriving)
+    check_samples(wanted.numbers or (), settings)
+
+
+def selected_paths(
+    replay: PathReplay, recipe: Recipe, pixel: Pixel, wanted: Selection
+) -> PixelPaths:
+    """The radiance of all samples of a pixel, and the paths of some of them, by an open replay."""
+    samples = recipe.settings.samples
+    found = PixelPaths(recipe, pixel, replay.radiances(pixel, samples), ())
+    if wanted.brightest:
+        numbers: Sequence[int] = found.brightest(wanted.brightest)
+    else:
+        numbers = range(samples) if wanted.numbers is None else wanted.numbers
+    arriving = replay.particles(pixel)
+    if arriving:
+        names = arriving.brightest(wanted.particles)
+        traced = (replay.particle_path(pixel, *name) for name in names)
+        arriving = replace(arriving, paths=tuple(path for path in traced if path))
+    return replace(found, paths=replay.paths(pixel, numbers), particles=arriving)
 
 
 def check_samples(numbers: Sequence[int], settings: Settings) -> None:
