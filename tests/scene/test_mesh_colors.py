@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 
 import glrt
 from glrt.scene.files.named_meshes import mesh_of_arrays
-from glrt.scene.meshes.triangle_meshes import checked
+from glrt.scene.meshes.triangle_meshes import MeshArrays, checked
 from glrt.scene.model_files.mesh_formats import decode_mesh
 
 POINTS = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])
@@ -78,7 +78,9 @@ def test_colours_of_arrays_are_kept_to_the_last_digit() -> None:
 def test_colours_go_with_their_vertices() -> None:
     """Where one that no triangle uses is left out."""
     mesh = checked(
-        np.concatenate([[[9.0, 9, 9]], POINTS]), FACE + 1, colors=[[2.0] * 3, *LINEAR.tolist()]
+        MeshArrays(
+            np.concatenate([[[9.0, 9, 9]], POINTS]), FACE + 1, colors=[[2.0] * 3, *LINEAR.tolist()]
+        )
     )
     assert mesh.colors is not None
     assert np.array_equal(mesh.colors, LINEAR)

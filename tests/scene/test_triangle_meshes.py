@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 import glrt
 from glrt.core.errors import SceneError
 from glrt.core.text import counted
-from glrt.scene.meshes.triangle_meshes import checked
+from glrt.scene.meshes.triangle_meshes import MeshArrays, checked
 from tests.support.meshes import blob, box, icosphere
 
 POINTS = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
@@ -47,7 +47,7 @@ REFUSED: dict[str, tuple[Any, Any, Any]] = {
 @pytest.mark.parametrize("message", REFUSED)
 def test_what_is_wrong_is_reported_by_its_number(message: str) -> None:
     with pytest.raises(ValueError, match=r".") as caught:
-        checked(*REFUSED[message])
+        checked(MeshArrays(*REFUSED[message]))
     assert message in str(caught.value)
     vertices, faces, normals = REFUSED[message]
     with pytest.raises(ValueError, match=r".") as caught:
@@ -57,53 +57,55 @@ def test_what_is_wrong_is_reported_by_its_number(message: str) -> None:
 
 def test_too_many_triangles_are_refused() -> None:
     with pytest.raises(ValueError, match=r"it has 4,000,001 triangles, and a scene may have 4,000"):
-        checked(POINTS, np.tile(np.arange(3), (4_000_001, 1)))
+        checked(MeshArrays(POINTS, np.tile(np.arange(3), (4_000_001, 1))))
 
 
 def test_vertices_of_no_triangle_do_not_matter() -> None:
-    mesh = checked(np.concatenate([NO_NUMBER[2:3], POINTS]), FACES + 1, None)
+    mesh = checked(MeshArrays(np.concatenate([NO_NUMBER[2:3], POINTS]), FACES + 1, None))
     assert np.array_equal(mesh.vertices, POINTS)
     assert np.array_equal(mesh.faces, FACES)
 
 
 @pytest.mark.parametrize("faces", [icosphere(2), blob(3), box([0, 0, 0], [1, 2, 3])])
 def test_closed_meshes_are_known_and_turned_outwards(faces: Any) -> None:
-    mesh = checked(*faces)
+    mesh = checked(MeshArrays(*faces))
     assert mesh.opening == ""
     assert mesh.outward is mesh
-    inside_out = checked(faces[0], faces[1][:, ::-1])
+    inside_out = checked(MeshArrays(faces[0], faces[1][:, ::-1]))
     assert inside_out.opening == ""
     assert np.array_equal(inside_out.outward.faces, faces[1])
 
 
 def test_why_a_mesh_is_open() -> None:
     points, faces = icosphere(1)
-    assert checked(points, faces[1:]).opening == "3 edges belong to one triangle"
+    assert checked(MeshArrays(points, faces[1:])).opening == "3 edges belong to one triangle"
     turned = faces.copy()
     turned[5] = turned[5, ::-1]
-    assert checked(points, turned).opening.startswith("at 3 edges neighbouring triangles face")
+    assert checked(MeshArrays(points, turned)).opening.startswith(
+        "at 3 edges neighbouring triangles face"
+    )
     twice = np.concatenate([faces, faces[:1, ::-1]])  # an equal one would be left out
-    assert "more than two meet" in checked(points, twice).opening
+    assert "more than two meet" in checked(MeshArrays(points, twice)).opening
 
 
 def test_a_mesh_of_loose_triangles_is_closed_where_they_meet() -> None:
     """STL files have such meshes: each triangle has vertices of its own."""
     points, faces = icosphere(2)
-    loose = checked(points[faces].reshape(-1, 3), np.arange(faces.size).reshape(-1, 3))
+    loose = checked(MeshArrays(points[faces].reshape(-1, 3), np.arange(faces.size).reshape(-1, 3)))
     assert loose.opening == ""
     assert_allclose(loose.shading_normals, loose.vertices, atol=0.02)
 
 
 def test_normals_are_means_of_the_triangles_around_a_vertex() -> None:
-    mesh = checked(*icosphere(4))
+    mesh = checked(MeshArrays(*icosphere(4)))
     assert_allclose(mesh.shading_normals, mesh.vertices, atol=3e-3)
-    corner = checked(*box([0, 0, 0], [1, 1, 1])).shading_normals[0]
+    corner = checked(MeshArrays(*box([0, 0, 0], [1, 1, 1]))).shading_normals[0]
     assert_allclose(corner, -np.full(3, 3**-0.5), atol=1e-12)  # whatever the diagonals of the sides
 
 
 def test_normals_that_are_given_are_taken() -> None:
     normals = np.add(POINTS, [1, 2, 3])
-    mesh = checked(POINTS, FACES, normals)
+    mesh = checked(MeshArrays(POINTS, FACES, normals))
     assert_allclose(mesh.shading_normals, normals / np.linalg.norm(normals, axis=1, keepdims=True))
 
 

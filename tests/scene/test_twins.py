@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from glrt.scene.meshes.repeated_triangles import _keys, repeated
-from glrt.scene.meshes.triangle_meshes import checked
+from glrt.scene.meshes.triangle_meshes import MeshArrays, checked
 from glrt.scene.twins import Twin, twins
 from glrt.scene.warnings import cautions
 from glrt.settings import settings_for
@@ -150,7 +150,7 @@ def test_labels_keep_triangles_apart() -> None:
 def test_a_mesh_keeps_each_triangle_once_and_reports_it() -> None:
     points, faces = icosphere(1)
     twice = np.concatenate([faces, faces[:2]])
-    made = checked(points, twice)
+    made = checked(MeshArrays(points, twice))
     assert (len(made.faces), made.repeated) == (len(faces), 2)
     scene = scene_from([mesh((points, twice), "matte"), quad_of("lamp")], MATERIALS)
     texts = cautions(scene, settings_for(scene.render))

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.testing import assert_allclose
 
-from glrt.scene.meshes.triangle_meshes import checked
+from glrt.scene.meshes.triangle_meshes import MeshArrays, checked
 from glrt.scene.meshes.vertex_means import mean_tangents
 from tests.support.meshes import Array, Faces
 
@@ -63,9 +63,9 @@ def test_what_a_file_gives_is_kept_and_the_rest_are_means() -> None:
     (points, faces), normals, uv = tube(8)
     given = np.zeros_like(points)
     given[3] = [0, 1, 0]
-    mesh = checked(points, faces, normals, uv=np.tile(uv, 2), tangents=given)
+    mesh = checked(MeshArrays(points, faces, normals, uv=np.tile(uv, 2), tangents=given))
     expected = mean_tangents(points, faces, mesh.shading_normals, uv)
     expected[3] = given[3]
     assert np.array_equal(mesh.shading_tangents, expected)
-    bare = checked(points, faces, normals)
+    bare = checked(MeshArrays(points, faces, normals))
     assert not bare.shading_tangents.any()

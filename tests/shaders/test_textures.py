@@ -11,7 +11,7 @@ from glrt.scene import instancing
 from glrt.scene.files.named_meshes import MeshFile
 from glrt.scene.materials.principled import Principled
 from glrt.scene.materials.textures import Texture
-from glrt.scene.meshes.triangle_meshes import checked
+from glrt.scene.meshes.triangle_meshes import MeshArrays, checked
 from glrt.scene.scene import Scene
 from tests.conftest import CallGlsl
 from tests.support.builders import disk, plane, quad, scene_of, sphere
@@ -254,7 +254,7 @@ def test_tangents_of_corners_go_before_those_of_triangles(
     monkeypatch.setattr(instancing, "LEAST_SAVED", 1)
     corners = np.array([[-2.0, -2, 0], [2, -2, 0], [0, 2, 0]])
     uv, along = np.tile(corners[:, :2] * [1, -1], 2), np.tile([0.0, 2, 0], (3, 1))
-    given = checked(corners, [[0, 1, 2]], uv=uv, tangents=along)
+    given = checked(MeshArrays(corners, [[0, 1, 2]], uv=uv, tangents=along))
     file = MeshFile(file="a.ply").read_as("0" * 64, given, None)
     thing = {"shape": "mesh", "file": file, "material": "m", "smooth": False, "rotate": [0, 0, 90]}
     shapes = [{**thing, "translate": [0, 0, -3.0 - far], "scale": 2} for far in range(count)]

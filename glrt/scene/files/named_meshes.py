@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from pydantic import BeforeValidator, PlainSerializer, PrivateAttr, WithJsonSchema
 
 from glrt.scene.files.named_files import PATH_SCHEMA, NamedFile, by_path, to_path
-from glrt.scene.meshes.triangle_meshes import TriangleMesh, checked
+from glrt.scene.meshes.triangle_meshes import MeshArrays, TriangleMesh, checked
 
 
 class MeshFile(NamedFile):
@@ -64,7 +64,7 @@ def mesh_of_arrays(
     Raises ValueError, which says what is wrong with which row.
     """
     sets = None if uv is None else np.tile(two_columns(uv), (1, 2))
-    triangles = checked(vertices, faces, normals, colors, uv=sets)
+    triangles = checked(MeshArrays(vertices, faces, normals, colors, uv=sets))
     content = _ply(triangles)
     sha256 = hashlib.sha256(content).hexdigest()
     named = MeshFile(file=f"mesh-{sha256[:12]}.ply")

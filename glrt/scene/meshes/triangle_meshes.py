@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -125,23 +125,28 @@ class TriangleMesh:
         return mean_normals(self.vertices, self.faces, self._place)
 
 
-def checked(
-    vertices: Any,
-    faces: Any,
-    normals: Any = None,
-    colors: Any = None,
-    names: tuple[str, ...] = (),
-    labels: Ints | None = None,
-    uv: Any = None,
-    tangents: Any = None,
-) -> TriangleMesh:
-    """Return a mesh of arrays, which have the shapes of the fields of `TriangleMesh`.
+class MeshArrays(NamedTuple):
+    """Arrays that a mesh is made of, with the shapes of the fields of `TriangleMesh`."""
+
+    vertices: Any
+    faces: Any
+    normals: Any = None
+    colors: Any = None
+    names: tuple[str, ...] = ()
+    labels: Ints | None = None
+    uv: Any = None
+    tangents: Any = None
+
+
+def checked(given: MeshArrays) -> TriangleMesh:
+    """Return a mesh of arrays.
 
     Left out are triangles with two equal corners, and triangles that repeat another one of their
     label.
 
     Raises ValueError, which says what is wrong with which row.
     """
+    vertices, faces, normals, colors, names, labels, uv, tangents = given
     points = _table(vertices, "vertices", np.float64)
     triangles = _table(faces, "faces", np.int64)
     turned = None if normals is None else _table(normals, "normals", np.float64)
@@ -162,29 +167,22 @@ def checked(
     used = np.zeros(len(points), bool)
     used[kept] = True
     rank = np.cumsum(used) - 1
-    given = (turned, dyes, sets, along)
-    turned, dyes, sets, along = (None if rows is None else rows[used] for rows in given)
+    all_rows = turned, dyes, sets, along
+    turned, dyes, sets, along = (None if rows is None else rows[used] for rows in all_rows)
     labels = None if labels is None else labels[whole]
     own = points[used], rank[kept], turned, dyes
     return TriangleMesh(*own, names, labels, sets, along, int(again.sum()))
 
 
-def of_file(
-    vertices: Any,
-    faces: Any,
-    normals: Any = None,
-    colors: Any = None,
-    names: tuple[str, ...] = (),
-    labels: Ints | None = None,
-    uv: Any = None,
-    tangents: Any = None,
-) -> TriangleMesh:
+def of_file(given: MeshArrays) -> TriangleMesh:
     """Return a mesh as `checked` does, with invalid colors and texture coordinates replaced.
 
     A color far out of range becomes white, and such texture coordinates become 0; `unread` of the
     mesh counts the vertices.
     """
     unread = list[str]()
+    colors: Any = given.colors
+    uv: Any = given.uv
     if colors is not None:
         colors = np.array(colors, np.float64)
         wrong = ~((colors >= -ROUNDING) & (colors <= 1 + ROUNDING)).all(axis=1)
@@ -195,7 +193,7 @@ def of_file(
         uv = np.where(wrong[:, None], 0.0, uv)
         count = counted(int(wrong.sum()), "vertex")
         unread += [f"the texture coordinates of {count}"] if wrong.any() else []
-    found = checked(vertices, faces, normals, colors, names, labels, uv, tangents)
+    found = checked(given._replace(colors=colors, uv=uv))
     return replace(found, unread=tuple(unread))
 
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from glrt.core.errors import SceneError
 from glrt.core.text import quoted
 from glrt.scene.images.image_files import decode_srgb
-from glrt.scene.meshes.triangle_meshes import NO_MATERIAL, TriangleMesh, of_file
+from glrt.scene.meshes.triangle_meshes import NO_MATERIAL, MeshArrays, TriangleMesh, of_file
 from glrt.scene.meshes.vertex_means import places
 from glrt.scene.model_files.gltf.document import Document
 from glrt.scene.model_files.gltf.draco import NotInstalledError
@@ -145,10 +145,10 @@ def _mesh(tables: dict[str, Any], suffix: str, owners: Sequence[str] = ()) -> Tr
         raise ValueError("it has no triangles")
     points, triangles = np.concatenate(vertices), np.concatenate(faces)
     if suffix == ".stl":  # triangles share no vertices in STL files
-        return of_file(points, places(points)[triangles])
+        return of_file(MeshArrays(points, places(points)[triangles]))
     names, labels = _labels(owners, [len(rows) for rows in faces])
     rows = _joined(normals), _joined(colors), names, labels, _joined(sets)
-    return of_file(points, triangles, *rows)
+    return of_file(MeshArrays(points, triangles, *rows))
 
 
 def _uv(visual: Any, count: int) -> NDArray[np.float64] | None:

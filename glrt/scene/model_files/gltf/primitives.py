@@ -5,7 +5,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from glrt.scene.meshes.triangle_meshes import MOST_TRIANGLES, NO_MATERIAL, TriangleMesh, of_file
+from glrt.scene.meshes.triangle_meshes import (
+    MOST_TRIANGLES,
+    NO_MATERIAL,
+    MeshArrays,
+    TriangleMesh,
+    of_file,
+)
 from glrt.scene.model_files.gltf.accessors import Floats, Ints, floats
 from glrt.scene.model_files.gltf.attributes import Attributes, weights_of
 from glrt.scene.model_files.gltf.document import Document
@@ -85,14 +91,16 @@ def mesh_of(document: Document) -> TriangleMesh:
     used = list(dict.fromkeys(part.material for part in parts))
     labels = [np.full(len(part.faces), used.index(part.material)) for part in parts]
     return of_file(
-        np.concatenate([part.points for part in parts]),
-        np.concatenate(faces),
-        np.concatenate([part.normals for part in parts]),
-        _joined([part.colors for part in parts], counts, 3, 1.0),
-        tuple(used),
-        np.concatenate(labels),
-        _joined([part.uv for part in parts], counts, 4, 0.0),
-        _joined([part.tangents for part in parts], counts, 3, 0.0),
+        MeshArrays(
+            np.concatenate([part.points for part in parts]),
+            np.concatenate(faces),
+            np.concatenate([part.normals for part in parts]),
+            _joined([part.colors for part in parts], counts, 3, 1.0),
+            tuple(used),
+            np.concatenate(labels),
+            _joined([part.uv for part in parts], counts, 4, 0.0),
+            _joined([part.tangents for part in parts], counts, 3, 0.0),
+        )
     )
 
 
