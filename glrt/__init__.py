@@ -22,6 +22,7 @@ Modules and packages, each importing only what stands above it:
 - lab: scenes on which methods fail, for `glrt stress`
 - view: the window
 - api: public functions that no other module defines
+- testing: a pytest plugin that compares pictures with references
 - cli: the commands
 - __main__: `python -m glrt`
 """

@@ -26,19 +26,20 @@ def block(language: str) -> str:
 def project(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A project that follows the page: a scene, its reference, and the test."""
     here = tmp_path_factory.mktemp("project")
-    for name in ("scenes", "references"):
-        (here / name).mkdir()
+    (here / "scenes").mkdir()
     text = (folder("scenes") / "cornell.toml").read_text()
     (here / "scenes" / "room.toml").write_text(text)
     (here / "test_pictures.py").write_text(block("python"))
-    done = glrt(*block("sh").split()[1:], cwd=here)
-    assert done.returncode == 0, done.stderr
+    code, told = run_pytest(here, *block("sh").split()[1:-1])
+    assert code == 0, told
+    assert f"glrt: wrote {here / 'references' / 'room.exr'}" in told
     return here
 
 
-def run_pytest(project: Path) -> tuple[int, str]:
-    """Exit code and output of pytest there."""
-    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "test_pictures.py"]
+def run_pytest(project: Path, *options: str) -> tuple[int, str]:
+    """Exit code and output of pytest there, in two processes."""
+    words = ["-q", "-p", "no:cacheprovider", "-n", "2", *options, "test_pictures.py"]
+    command = [sys.executable, "-m", "pytest", *words]
     done = subprocess.run(command, cwd=project, capture_output=True, text=True, timeout=200)
     return done.returncode, done.stdout
 

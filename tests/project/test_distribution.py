@@ -102,5 +102,7 @@ def test_every_package_asked_for_has_a_lowest_version(metadata: Message) -> None
 
 
 def test_the_command_is_in_the_wheel(wheel: zipfile.ZipFile) -> None:
-    assert "glrt = glrt.cli.main:main" in wheel.read(f"{INFO}/entry_points.txt").decode()
+    entries = wheel.read(f"{INFO}/entry_points.txt").decode()
+    assert "glrt = glrt.cli.main:main" in entries
+    assert "[pytest11]\nglrt = glrt.testing.plugin" in entries
     assert "glrt/__main__.py" in wheel.namelist()
