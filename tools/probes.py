@@ -62,6 +62,12 @@ def glslang() -> str:
     return "" if shutil.which("glslangValidator") else "no program glslangValidator"
 
 
+def chromium() -> str:
+    """Is a browser there? The tests open the pages that glrt writes."""
+    names = ("chromium-headless-shell", "chromium", "google-chrome")
+    return "" if any(map(shutil.which, names)) else f"no program {names[0]}"
+
+
 def window() -> str:
     """Are the libraries there with which a window opens under X11?"""
     return library("libGL.so.1") or library("libX11.so.6") or library("libXext.so.6")

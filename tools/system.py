@@ -72,8 +72,15 @@ GLSLANG = Need(
     "glslang (Fedora, Arch, Alpine: glslang)",
 )
 
+CHROMIUM = Need(
+    "a headless Chromium, in which pages are tested",
+    probes.chromium,
+    ("chromium-headless-shell",),
+    "Chromium (Fedora: chromium-headless; Arch, Alpine: chromium)",
+)
+
 WANTED = {
-    "bench": (CXX, VENV, EGL, OSMESA, XVFB, WINDOW, VULKAN, GLSLANG, LLVM),
+    "bench": (CXX, VENV, EGL, OSMESA, XVFB, WINDOW, VULKAN, GLSLANG, LLVM, CHROMIUM),
     "check": (CXX, VENV),
     "render": (CXX, VENV, EGL, OSMESA),
     "test": (CXX, VENV, EGL, OSMESA, XVFB, WINDOW, VULKAN, GLSLANG),

@@ -55,6 +55,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--picture", metavar="FILE", help="a .png file that shows where they differ"
     )
+    parser.add_argument(
+        "--html",
+        metavar="FILE",
+        help="a .html file that shows both, with a wipe, exposure, and the figures",
+    )
     parser.add_argument("--json", action="store_true", help="print figures as one line of JSON")
 
 
@@ -68,13 +73,20 @@ def run(arguments: argparse.Namespace) -> int:
     image = read(arguments.image, arguments.samples, "--samples")
     reference = read(arguments.reference, arguments.reference_samples, "--reference-samples")
     if arguments.picture:
-        _check_picture(arguments.picture)
+        _check_ending(arguments.picture, "--picture", ".png")
+    if arguments.html:
+        _check_ending(arguments.html, "--html", ".html")
     groups = light_groups(image, arguments.image) if arguments.groups else {}
     comparison = compare(image, reference, arguments.alpha, arguments.bias, groups=groups)
     if arguments.picture:
         from glrt.comparison.heatmap import save_picture
 
         save_picture(comparison, arguments.picture)
+    if arguments.html:
+        from glrt.comparison.html import Compared, entry_of, save_page
+
+        title = f"{Path(arguments.image).name} and {Path(arguments.reference).name}"
+        save_page([entry_of(Compared(title, image, reference, comparison))], arguments.html)
     print(json.dumps(figures(comparison)) if arguments.json else repr(comparison), flush=True)
     wanted = ("same",) if arguments.strict else ("same", "undecided")
     return 0 if comparison.verdict in wanted else DIFFERENT
@@ -144,9 +156,9 @@ def _plain(value: Any) -> Any:
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
-def _check_picture(path: str) -> None:
-    if not path.lower().endswith(".png"):
-        raise UsageError(f"Cannot write {path}: the file of --picture must end in .png.")
+def _check_ending(path: str, option: str, ending: str) -> None:
+    if not path.lower().endswith(ending):
+        raise UsageError(f"Cannot write {path}: the file of {option} must end in {ending}.")
     files.check_writable(Path(path))
 
 

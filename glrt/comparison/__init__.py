@@ -8,4 +8,5 @@ Modules, each importing only what stands above it:
 - result: the result of a comparison
 - verdict: same, different or undecided
 - heatmap: a picture of the difference
+- html: a page of compared pictures
 """

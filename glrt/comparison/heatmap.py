@@ -47,7 +47,7 @@ def _mix(near: Array, far: Array, share: Array) -> Array:
     return near + (far - near) * share
 
 
-def _strongest(scores: Array) -> Array:
+def strongest(scores: Array) -> Array:
     """The score of the channel that lies farthest from 0, without the last axis."""
     channel = np.abs(scores).argmax(axis=-1)[..., None]
     return np.asarray(np.take_along_axis(scores, channel, axis=-1)[..., 0])
@@ -71,7 +71,7 @@ def _draw(comparison: Comparison) -> Any:
     for column, (caption, scores) in enumerate(panels):
         left = MARGIN + column * (width + MARGIN)
         _text(draw, (left, top - TITLE), caption)
-        panel = Image.fromarray(colors(_strongest(scores)))
+        panel = Image.fromarray(colors(strongest(scores)))
         canvas.paste(panel.resize((width, height), Image.Resampling.NEAREST), (left, top))
         _frame(draw, comparison, left, top, zoom)
     _color_bar(canvas, draw, right, top, height)

@@ -1,5 +1,6 @@
 """Pictures of a test: rendered, compared with their references, and shown where they differ."""
 
+import json
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -13,8 +14,10 @@ import pytest
 
 from glrt.api import render
 from glrt.comparison.heatmap import save_picture
+from glrt.comparison.html import Compared, entry_of
 from glrt.comparison.result import Comparison
 from glrt.comparison.verdict import compare
+from glrt.core import files
 from glrt.core.errors import GlrtError
 from glrt.gpu.context import Context, open_context
 from glrt.image.image import Image
@@ -41,6 +44,7 @@ class Pictures:
     alpha: float  # largest chance that an equal picture is called different, of each picture
     most: int = 1  # number of pictures among which the run's chance is divided, for this test
     update: bool = False  # whether missing and different references are written
+    parts: Path | None = None  # the folder that collects what the page shows
     properties: list[tuple[str, object]] = field(default_factory=list)  # of the test's report
     checked: int = 0
 
@@ -66,7 +70,13 @@ class Pictures:
             image = render(scene, samples, _context(), **settings)
             has_its_size = reference and reference.radiance.shape == image.radiance.shape
             found = compare(image, reference, self.alpha) if reference and has_its_size else None
-            if found and found.verdict in (("same",) if strict else ("same", "undecided")):
+            if self.parts and reference and found is not None:
+                shown = entry_of(Compared(name, image, reference, found))
+                self.parts.mkdir(parents=True, exist_ok=True)
+                part = self.parts / f"{_plain(self.test)}-{self.checked}.json"
+                files.write_text(part, json.dumps(shown))
+            passing = ("same",) if strict else ("same", "undecided")
+            if found is not None and found.verdict in passing:
                 self._forget(name)
                 return found
             if self.update:
@@ -119,7 +129,7 @@ class Pictures:
                 pytrace=False,
             )
         if isinstance(scene, Scene):
-            return scene, name or re.sub(r"\W+", "_", self.test.rpartition("::")[2]).strip("_")
+            return scene, name or _plain(self.test.rpartition("::")[2])
         file = self.folder / scene
         with _failures():
             return load(file if file.exists() else str(scene)), name or file.stem
@@ -157,6 +167,11 @@ class Pictures:
             f"pytest --glrt-update '{self.test}'",
             pytrace=False,
         )
+
+
+def _plain(text: str) -> str:
+    """The name of a file: letters, digits and underscores."""
+    return re.sub(r"\W+", "_", text).strip("_")
 
 
 @contextmanager

@@ -1,5 +1,8 @@
 """The hooks and the fixture of pytest. Nothing of the renderer is imported before a test asks."""
 
+import json
+import shutil
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -8,16 +11,20 @@ if TYPE_CHECKING:
     from glrt.testing.pictures import Pictures
 
 FIXTURE, MARK, WRITTEN = "picture", "pictures", "glrt_reference"
-UPDATE, ALPHA = "--glrt-update", "glrt_alpha"
+UPDATE, PAGE, ALPHA = "--glrt-update", "--glrt-html", "glrt_alpha"
 _COUNT = pytest.StashKey[int]()
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     """Add the option and the setting."""
-    parser.getgroup("glrt", "pictures rendered by glrt").addoption(
+    group = parser.getgroup("glrt", "pictures rendered by glrt")
+    group.addoption(
         UPDATE,
         action="store_true",
         help="write references of pictures that are missing or differ, instead of failing",
+    )
+    group.addoption(
+        PAGE, metavar="FILE", help="write a page of all compared pictures, one .html file"
     )
     text = "largest chance that a run calls any equal picture different"
     parser.addini(ALPHA, text, default="1e-3")
@@ -27,6 +34,20 @@ def pytest_configure(config: pytest.Config) -> None:
     """Declare the marker, and refuse a chance that is none."""
     config.addinivalue_line("markers", f"{MARK}(count): number of pictures that a test checks")
     _alpha(config)
+    if _is_first(config) and (parts := _parts(config)):
+        shutil.rmtree(parts, ignore_errors=True)  # of a run that was killed
+
+
+def pytest_sessionfinish(session: pytest.Session) -> None:
+    """Join what the processes found into one page."""
+    parts = _parts(session.config)
+    if not (_is_first(session.config) and parts):
+        return
+    from glrt.comparison.html import save_page
+
+    found = [json.loads(file.read_text("utf-8")) for file in sorted(parts.glob("*.json"))]
+    save_page(found, session.config.getoption(PAGE))
+    shutil.rmtree(parts, ignore_errors=True)
 
 
 def pytest_collection_finish(session: pytest.Session) -> None:
@@ -44,15 +65,31 @@ def picture(request: pytest.FixtureRequest) -> "Pictures":
     config, item = request.config, request.node
     share = _alpha(config) / max(config.stash.get(_COUNT, 1), 1)
     most, update = _declared(item), config.getoption(UPDATE)
-    return Pictures(item.path.parent, item.nodeid, share, most, update, item.user_properties)
+    return Pictures(
+        *(item.path.parent, item.nodeid, share, most, update),
+        parts=_parts(config),
+        properties=item.user_properties,
+    )
 
 
 def pytest_terminal_summary(terminalreporter: Any) -> None:
-    """Name the references that were written."""
+    """Name the files that were written."""
     reports = terminalreporter.stats.get("passed", [])
     found = sorted({file for it in reports for key, file in it.user_properties if key == WRITTEN})
-    for file in found:
+    page = terminalreporter.config.getoption(PAGE)
+    for file in [*found, *([page] if page else [])]:
         terminalreporter.write_line(f"glrt: wrote {file}")
+
+
+def _is_first(config: pytest.Config) -> bool:
+    """Whether this is the process that the user started, not one of xdist."""
+    return not hasattr(config, "workerinput")
+
+
+def _parts(config: pytest.Config) -> Path | None:
+    """The folder in which processes collect entries of the page."""
+    page = config.getoption(PAGE)
+    return config.invocation_params.dir / f"{page}.parts" if page else None
 
 
 def _declared(item: Any) -> int:

@@ -53,6 +53,31 @@ def test_a_chance_that_is_none_is_refused(given: str, tmp_path: Path) -> None:
     assert f"glrt_alpha must be a number between 0 and 1, got '{given}'." in done.stderr
 
 
+PICTURES = """
+def test_dim(picture):
+    picture.check("cornell", samples=32, width=16, height=12)
+
+def test_bright(picture):
+    picture.check("sky", samples=32, width=16, height=12)
+"""
+
+
+@pytest.mark.slow
+def test_two_processes_write_one_page(tmp_path: Path) -> None:
+    (tmp_path / "test_two.py").write_text(PICTURES)
+    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-n", "2"]
+    for options in (["--glrt-update"], ["--glrt-html", "page.html"]):
+        done = subprocess.run(
+            [*command, *options], cwd=tmp_path, capture_output=True, text=True, timeout=200
+        )
+        assert done.returncode == 0, done.stdout
+    assert "glrt: wrote page.html" in done.stdout
+    text = (tmp_path / "page.html").read_text()
+    assert '"title": "cornell"' in text
+    assert '"title": "sky"' in text
+    assert sorted(file.name for file in tmp_path.iterdir() if file.is_dir()) == ["references"]
+
+
 def test_pytest_loads_nothing_of_the_renderer() -> None:
     program = "import sys, pytest; before = set(sys.modules); import glrt.testing.plugin as p; \
         print(sorted(m for m in set(sys.modules) - before if not m.startswith('glrt')))"
