@@ -136,12 +136,14 @@ vec3 triangle_normal(Triangle triangle, int instance) {
     return normal;
 }
 
+const float CANCELLED = 1.0e-6;  // squared length of a mean of opposite unit normals, which has no direction
+
 // The normal interpolated between the normals of the corners, on the side of the triangle's own.
 vec3 smooth_normal(vec3 own, int instance, vec3 shares, Corner a, Corner b, Corner c) {
     vec3 mean = shares.x * corner_normal(a, instance)
                       + shares.y * corner_normal(b, instance)
                       + shares.z * corner_normal(c, instance);
-    if (dot(mean, mean) < 1.0e-6) return own;  // opposite normals nearly cancel
+    if (dot(mean, mean) < CANCELLED) return own;
     vec3 normal = normalized(mean);
     return dot(normal, own) < 0.0 ? -normal : normal;
 }
