@@ -1,7 +1,7 @@
 """Judges the method that `glrt inspect --error` chose: by renders of it and of cheaper ones."""
 
-import time
-from collections.abc import Callable, Iterator
+import math
+from collections.abc import Iterator
 from functools import cached_property
 from typing import Any, NamedTuple
 from unittest.mock import patch
@@ -12,6 +12,7 @@ from glrt.analysis import reference as references
 from glrt.analysis.method_choice.candidate import Candidate
 from glrt.analysis.method_choice.search import Verdict
 from glrt.analysis.method_choice.trial import LIMITS
+from glrt.analysis.method_choice.work import counting, work_per_sample
 from glrt.analysis.reference import Budget, Reference, reference_for
 from glrt.gpu.context import Context
 from glrt.rendering.renderer import Renderer
@@ -20,12 +21,11 @@ from glrt.settings import Settings, settings_for
 from tests.support.builders import lamp, quad, scene_of, sphere
 
 SLACK = 1.15  # of an error, which the verdict knows from few pictures
-MARGIN = 1.5  # of a time: a measurement of milliseconds cannot separate methods that near
+MARGIN = 1.5  # of work: counts do not separate the times of methods that near
 FIRST_SEED, FEWEST, MOST_PICTURES = 90, 8, 32  # of the pictures whose errors are taken
 WORK = 4096  # samples for them all, within those numbers
 TRUTH_SEEDS = (1001, 1002)  # not those of the reference that the verdict saw
-TRUTH_SECONDS = 4.0
-WARM, TIMED, TURNS = 32, 128, 7  # samples, samples, renders of each way
+TRUTH_SAMPLES = 8192  # at most; no clock decides, so a busy machine has the same truth
 MOST = 1 << 14  # samples that a cheaper way is tried with
 
 
@@ -40,7 +40,7 @@ class Found(NamedTuple):
 
 
 class Judge:
-    """Renders what a verdict chose, and what else could be done in the same time."""
+    """Renders what a verdict chose, and what else could be done with the same work."""
 
     def __init__(self, scene: Scene, verdict: Verdict, context: Context) -> None:
         """The verdict names something."""
@@ -52,7 +52,7 @@ class Judge:
     def truth(self) -> Reference:
         """A reference of random numbers of its own."""
         with patch.object(references, "SEEDS", TRUTH_SEEDS):
-            budget = Budget(0.1 * self.verdict.error, TRUTH_SECONDS)
+            budget = Budget(0.1 * self.verdict.error, math.inf, TRUTH_SAMPLES)
             return reference_for(self.scene, self.best.settings, self.context, budget)
 
     @cached_property
@@ -69,17 +69,17 @@ class Judge:
         return self.choice.usual <= SLACK * self.verdict.error
 
     def cheaper_ones(self) -> list[Found]:
-        """Other methods, and fewer bounces, that surely reach the error in less time by MARGIN.
+        """Other methods, and fewer bounces, that surely reach the error with less work by MARGIN.
 
         As surely as the verdict knows noise and biases. In whole observations: a picture does not
         know the error of less.
         """
         ways = dict(self._others())
-        seconds = self._seconds_a_sample([self.best.settings, *ways.values()])
-        time_enough = self._samples_needed() * seconds[0]
+        enough = self._samples_needed() * self._work_a_sample(self.best.settings)
         found = []
-        for (name, settings), own in zip(ways.items(), seconds[1:], strict=True):
-            samples = int(time_enough / own / MARGIN) // settings.block * settings.block
+        for name, settings in ways.items():
+            own = self._work_a_sample(settings)
+            samples = int(enough / own / MARGIN) // settings.block * settings.block
             if samples:
                 found.append(self._tried(name, settings, min(samples, MOST)))
         return [each for each in found if each.most <= self.verdict.error]
@@ -123,25 +123,13 @@ class Judge:
         errors = np.sqrt(np.maximum([mean, usual, most], 0.0))
         return Found(name, samples, *errors.tolist())
 
-    def _seconds_a_sample(self, ways: list[Settings]) -> list[float]:
-        """The least of TURNS renders of each, in turns; of processors, where they do the work."""
-        renderers = [self._renderer(settings) for settings in ways]
-        clock = time.process_time if self.context.is_software else time.perf_counter
-        times = np.array([[_timed(each, clock) for each in renderers] for _ in range(TURNS)])
-        for renderer in renderers:
-            renderer.release()
-        return list(times.min(axis=0) / TIMED)
+    def _work_a_sample(self, settings: Settings) -> float:
+        """The counted work of a sample: it is the same on a busy machine."""
+        with counting(self.scene, settings, self.context) as counter:
+            return work_per_sample(counter, settings.bounces, lambda _renderer: True)
 
     def _renderer(self, settings: Settings) -> Renderer:
         return Renderer(self.scene, settings, self.context, tier="baked")
-
-
-def _timed(renderer: Renderer, clock: Callable[[], float]) -> float:
-    renderer.restart()
-    renderer.render(WARM)  # its first dispatches are small
-    start = clock()
-    renderer.render(WARM + TIMED)
-    return clock() - start
 
 
 def random_scene(seed: int) -> Scene:
