@@ -66,17 +66,23 @@ def _packed(values: np.ndarray[Any, Any]) -> str:
     return base64.b64encode(gzip.compress(values.tobytes(), 6, mtime=0)).decode()
 
 
+def _span(low: float, high: float) -> str:
+    return f"{percent(low, sign='+')} to {percent(high, sign='+')}"
+
+
 def _rows(found: Comparison) -> list[list[str]]:
     sure = f"{100 * (1 - found.alpha):.4g} % interval"
     rows = [["mean", "new", "reference", "difference", sure]]
     for name, means, (size, low, high) in zip(
         CHANNELS, found.means, found.differences, strict=True
     ):
-        interval = f"{percent(low, sign='+')} to {percent(high, sign='+')}"
-        rows.append([name, *(f"{mean:.5g}" for mean in means), percent(size, sign="+"), interval])
+        rows.append(
+            [name, *(f"{mean:.5g}" for mean in means), percent(size, sign="+"), _span(low, high)]
+        )
     for name, (size, low, high) in zip(CHANNELS, found.factors, strict=False):
-        interval = f"{percent(low, sign='+')} to {percent(high, sign='+')}"
-        rows.append([f"{name}, weighted by 1 / noise", "", "", percent(size, sign="+"), interval])
+        rows.append(
+            [f"{name}, weighted by 1 / noise", "", "", percent(size, sign="+"), _span(low, high)]
+        )
     rows.append(["spread of blocks, 1 expected", "", "", f"{found.spread:.2f}", ""])
     rows.append(
         [

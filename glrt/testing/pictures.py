@@ -1,5 +1,6 @@
 """Pictures of a test: rendered, compared with their references, and shown where they differ."""
 
+import hashlib
 import json
 import re
 from collections.abc import Iterator
@@ -27,7 +28,6 @@ from glrt.settings import FrameOptions, settings_for
 
 SAMPLES = 64  # samples per pixel of a picture, unless a test gives another number
 TIMES = 4  # as many samples has its reference
-WRITTEN = "glrt_reference"  # a property of the test's report
 FOLDER, FAILED = "references", "failed"  # next to the test file
 
 
@@ -45,7 +45,7 @@ class Pictures:
     most: int = 1  # number of pictures among which the run's chance is divided, for this test
     update: bool = False  # whether missing and different references are written
     parts: Path | None = None  # the folder that collects what the page shows
-    properties: list[tuple[str, object]] = field(default_factory=list)  # of the test's report
+    written: list[Path] = field(default_factory=list)  # references, by this test
     checked: int = 0
 
     def check(
@@ -73,7 +73,8 @@ class Pictures:
             if self.parts and reference and found is not None:
                 shown = entry_of(Compared(name, image, reference, found))
                 self.parts.mkdir(parents=True, exist_ok=True)
-                part = self.parts / f"{_plain(self.test)}-{self.checked}.json"
+                number = hashlib.sha256(self.test.encode()).hexdigest()[:16]
+                part = self.parts / f"{number}-{self.checked}.json"
                 files.write_text(part, json.dumps(shown))
             passing = ("same",) if strict else ("same", "undecided")
             if found is not None and found.verdict in passing:
@@ -145,16 +146,16 @@ class Pictures:
     def _write(self, image: Image, file: Path) -> None:
         file.parent.mkdir(parents=True, exist_ok=True)
         image.save(file)
-        self.properties.append((WRITTEN, str(file)))
+        self.written.append(file)
 
     def _show(self, name: str, image: Image, reference: Image) -> None:
         image.save(self._failed(f"{name}.png"))
         reference.save(self._failed(f"{name}-reference.png"))
 
     def _failed(self, name: str) -> Path:
-        folder = self.folder / FAILED
-        folder.mkdir(parents=True, exist_ok=True)
-        return folder / name
+        file = self.folder / FAILED / name
+        file.parent.mkdir(parents=True, exist_ok=True)
+        return file
 
     def _forget(self, name: str) -> None:
         """Delete the pictures of an earlier failure."""

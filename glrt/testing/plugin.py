@@ -8,11 +8,13 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 if TYPE_CHECKING:
+    from collections.abc import Generator
+
     from glrt.testing.pictures import Pictures
 
 FIXTURE, MARK, WRITTEN = "picture", "pictures", "glrt_reference"
 UPDATE, PAGE, ALPHA = "--glrt-update", "--glrt-html", "glrt_alpha"
-_COUNT = pytest.StashKey[int]()
+_COUNT, _WRITTEN = pytest.StashKey[int](), pytest.StashKey["list[Path]"]()
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -44,9 +46,13 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
     if not (_is_first(session.config) and parts):
         return
     from glrt.comparison.html import save_page
+    from glrt.core.errors import GlrtError
 
     found = [json.loads(file.read_text("utf-8")) for file in sorted(parts.glob("*.json"))]
-    save_page(found, session.config.getoption(PAGE))
+    try:
+        save_page(found, session.config.getoption(PAGE))
+    except GlrtError as error:
+        raise pytest.UsageError(f"{PAGE}: {error}") from None
     shutil.rmtree(parts, ignore_errors=True)
 
 
@@ -65,11 +71,17 @@ def picture(request: pytest.FixtureRequest) -> "Pictures":
     config, item = request.config, request.node
     share = _alpha(config) / max(config.stash.get(_COUNT, 1), 1)
     most, update = _declared(item), config.getoption(UPDATE)
-    return Pictures(
-        *(item.path.parent, item.nodeid, share, most, update),
-        parts=_parts(config),
-        properties=item.user_properties,
-    )
+    pictures = Pictures(item.path.parent, item.nodeid, share, most, update, _parts(config))
+    item.stash[_WRITTEN] = pictures.written
+    return pictures
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(item: pytest.Item) -> "Generator[None, Any, Any]":
+    """Add the references that the test wrote to its report, which xdist hands over."""
+    report = yield
+    report.user_properties += [(WRITTEN, str(file)) for file in item.stash.get(_WRITTEN, [])]
+    return report
 
 
 def pytest_terminal_summary(terminalreporter: Any) -> None:

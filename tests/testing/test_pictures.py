@@ -41,7 +41,7 @@ def test_a_reference_is_written_once_and_the_same_scene_passes(tmp_path: Path) -
     update = checker(tmp_path, update=True)
     assert update.check(load("cornell"), "room", 16, **SIZE) is None
     file = tmp_path / "references" / "room.exr"
-    assert update.properties == [("glrt_reference", str(file))]
+    assert update.written == [file]
     reference = Image.load(file)
     assert reference.samples == 64
     assert reference.recipe
@@ -52,7 +52,7 @@ def test_a_reference_is_written_once_and_the_same_scene_passes(tmp_path: Path) -
     before = file.read_bytes()
     again = checker(tmp_path, update=True)
     assert again.check(load("cornell"), "room", 16, **SIZE)
-    assert (again.properties, file.read_bytes()) == ([], before)
+    assert (again.written, file.read_bytes()) == ([], before)
     assert not (tmp_path / "failed").exists()
 
 
@@ -65,6 +65,9 @@ def test_a_brighter_lamp_fails_and_leaves_three_pictures(tmp_path: Path) -> None
     assert shown == ["ball-difference.png", "ball-reference.png", "ball.png"]
     assert checker(tmp_path).check(DIM, "ball", 16, **SIZE)
     assert not [*(tmp_path / "failed").iterdir()], "they are of an earlier failure"
+    checker(tmp_path, update=True).check(DIM, "deep/ball", 16, **SIZE)
+    failure(checker(tmp_path).check, BRIGHT, "deep/ball", 16, **SIZE)
+    assert (tmp_path / "failed" / "deep" / "ball.png").exists()
     checker(tmp_path, update=True).check(BRIGHT, "ball", 16, **SIZE)
     assert checker(tmp_path).check(BRIGHT, "ball", 16, **SIZE)
 

@@ -53,6 +53,13 @@ def test_a_chance_that_is_none_is_refused(given: str, tmp_path: Path) -> None:
     assert f"glrt_alpha must be a number between 0 and 1, got '{given}'." in done.stderr
 
 
+def test_a_page_that_cannot_be_written_is_one_paragraph(tmp_path: Path) -> None:
+    done = run(tmp_path, "--glrt-html", "no/page.html")
+    assert done.returncode != 0
+    assert "--glrt-html: " in done.stdout + done.stderr
+    assert "Traceback" not in done.stdout + done.stderr
+
+
 PICTURES = """
 def test_dim(picture):
     picture.check("cornell", samples=32, width=16, height=12)
@@ -66,12 +73,15 @@ def test_bright(picture):
 def test_two_processes_write_one_page(tmp_path: Path) -> None:
     (tmp_path / "test_two.py").write_text(PICTURES)
     command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-n", "2"]
+    told = []
     for options in (["--glrt-update"], ["--glrt-html", "page.html"]):
         done = subprocess.run(
             [*command, *options], cwd=tmp_path, capture_output=True, text=True, timeout=200
         )
         assert done.returncode == 0, done.stdout
-    assert "glrt: wrote page.html" in done.stdout
+        told.append(done.stdout)
+    assert f"glrt: wrote {tmp_path / 'references' / 'sky.exr'}" in told[0]
+    assert "glrt: wrote page.html" in told[1]
     text = (tmp_path / "page.html").read_text()
     assert '"title": "cornell"' in text
     assert '"title": "sky"' in text
