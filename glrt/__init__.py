@@ -17,6 +17,7 @@ Modules and packages, each importing only what stands above it:
 - image: pictures in files, with their recipe and the state of their film
 - comparison: whether two pictures differ by more than their noise
 - rendering: render a scene with settings: samples on a film
+- series: series of pictures: animations, turntables and sweeps
 - doctor: which OpenGL routes work on a machine
 - analysis: experiments with the renderer: chart, choice of a method
 - lab: scenes on which methods fail, for `glrt stress`

@@ -10,6 +10,8 @@ Modules, each importing only what stands above it:
 - caustics: choice of particles where the command line leaves it open
 - progress: the progress bar
 - render: `glrt render`
+- film_report: report of a film
+- film: `glrt film`
 - view: `glrt view`
 - merge: `glrt merge`
 - compare: `glrt compare`

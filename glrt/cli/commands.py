@@ -14,6 +14,7 @@ from glrt.core.version import VERSION
 
 COMMANDS = {  # name, and its summary in `glrt --help`
     "render": "render a scene to a file",
+    "film": "render a series of pictures",
     "view": "show a scene in a window",
     "merge": "put the parts of a render together",
     "compare": "say whether two renders differ",

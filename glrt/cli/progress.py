@@ -38,6 +38,35 @@ def progress_bar(limits: Limits, begun: int = 0) -> Iterator[Watch]:
         yield watch
 
 
+@contextmanager
+def film_bar(count: int) -> Iterator["FilmWatch"]:
+    """Yield the updater of a temporary bar on stderr for a film of `count` frames."""
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn
+
+    columns = (TextColumn("{task.fields[done]}"), BarColumn(), TextColumn("{task.fields[rest]}"))
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("film", total=1.0, done="compiling", rest="")
+        forecasts = dict[int, Forecast]()
+
+        def watch(number: int, done: int, limits: Limits, renderer: Renderer) -> None:
+            if number not in forecasts:
+                forecasts.clear()
+                forecasts[number] = Forecast(limits)
+            state: dict[str, Any] = forecasts[number].after(renderer)
+            share = (done + state["completed"]) / count
+            text = f"frame {number} ({done + 1} of {count}), {state['done']}"
+            bar.update(task, completed=share, done=text, rest=state["rest"])
+
+        yield watch
+
+
+class FilmWatch(Protocol):
+    """Function that is called after each dispatch, with the frame and how many are done."""
+
+    def __call__(self, number: int, done: int, limits: Limits, renderer: Renderer) -> None: ...
+
+
 class Forecast:
     """Progress and remaining time of a render, by its limits of samples, time and error."""
 

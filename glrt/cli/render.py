@@ -71,6 +71,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="K/N",
         help="render the K-th of N parts of the samples, which `glrt merge` puts together",
     )
+    parser.add_argument(
+        "--frame",
+        type=int,
+        default=0,
+        metavar="N",
+        help="the frame of the scene's animation, from 0 (default: %(default)s)",
+    )
     add_context(parser)
     add_pipeline(parser)
     add_files(parser)
@@ -103,6 +110,7 @@ def run(arguments: argparse.Namespace) -> int:
 def _run(arguments: argparse.Namespace) -> int:
     start = time.perf_counter()
     wanted = order(arguments)
+    wanted = replace(wanted, scene=wanted.scene.at_frame(arguments.frame))
     load = time.perf_counter() - start
     for output in arguments.outputs:
         check_writable(output)

@@ -34,7 +34,7 @@ TIERS: tuple[Tier, ...] = get_args(Tier)
 class Order:
     """A requested render."""
 
-    scene: Scene
+    scene: Scene  # with its animation
     settings: Settings
     limits: Limits
     begun: Image | None = None  # the picture to continue from
@@ -205,7 +205,7 @@ def _order_to_go_on(arguments: argparse.Namespace) -> Order:
         settings = settings_for(base, **settings_given(arguments))
         kept = _decisions_kept(arguments, recipe)
         order = _limited(arguments, Order(scene, settings, Limits(0), image, decisions=kept))
-        update = {"scene": scene, "settings": order.settings}
+        update = {"scene": scene.at_frame(arguments.frame), "settings": order.settings}
         fitting(image, recipe.model_copy(update=update))
         if recipe.partition:
             return _part_to_go_on(order, recipe.partition)

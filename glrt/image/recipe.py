@@ -59,6 +59,15 @@ def lasting(decisions: Mapping[str, str], chosen: Settings, now: Settings) -> di
     return {k: v for k, v in decisions.items() if getattr(now, k) == getattr(chosen, k)}
 
 
+class FrameLimits(Frozen):
+    """When the render of a frame of a film was to end, other than by its samples."""
+
+    number: int = Field(description="number of the frame, from 0", ge=0)
+    seconds: float | None = Field(None, description="seconds that it was given", gt=0)
+    error: float | None = Field(None, description="the error that it was to reach", gt=0)
+    reached: bool = Field(True, description="whether it reached that error")
+
+
 class Recipe(Frozen):
     """All that made a picture; rendered again, it gives the same bits on the same driver."""
 
@@ -84,6 +93,8 @@ class Recipe(Frozen):
         description="which meshes had trees of their own: large ones too, once one was moved in "
         "the window",
     )
+
+    frame: FrameLimits | None = Field(None, description="the frame of a film that the picture is")
 
     @model_validator(mode="after")
     def _has_samples_for_each_part(self) -> Self:

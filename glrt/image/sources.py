@@ -71,7 +71,13 @@ def load_recipe(source: str | Path, rules: FileRules = STRICT) -> tuple[Scene, S
         if is_model(path):
             return _of_model(path, rules, shown(source)), None
         scene, folder = read_scene(path), path.absolute().parent
-    return _with_files(scene, folder, rules, shown(source)), None
+    return _begun(_with_files(scene, folder, rules, shown(source))), None
+
+
+def _begun(scene: Scene) -> Scene:
+    """The scene with the values of frame 0 of its animation."""
+    start = scene.at_frame(0)
+    return start.model_copy(update={"animation": scene.animation}) if scene.animation else scene
 
 
 def files_read(recipe: Recipe, picture: Path, rules: FileRules = STRICT) -> Recipe:

@@ -279,7 +279,7 @@ class Renderer(Progress):
 
     def _recipe(self, weights: Weights) -> Recipe:
         return Recipe(
-            scene=self.scene,
+            scene=self.scene.still,
             settings=self.settings,
             samples=self.samples,
             version=VERSION,

@@ -12,10 +12,13 @@ Modules, each importing only what stands above it:
 - materials: materials, one file for each type
 - model_files: files of models: glTF, OBJ, PLY and STL
 - probes: grid of probes
+- animation: values that change from frame to frame
 - schema: fields of a scene, and their checks
+- frames: a scene with other values in it
 - instancing: meshes that share a BVH
 - loading: loads the files that a scene names
 - nesting: glasses that overlap by priority
+- misfits: parts that do not go together
 - twins: objects that coincide
 - scene: the scene, with checks across its parts
 - coincidence: lamps that coincide with other surfaces

@@ -9,16 +9,18 @@ from pydantic import model_validator
 from glrt.core.errors import SceneError, UsageError
 from glrt.core.files import write_text
 from glrt.core.text import number, quoted, unknown
+from glrt.scene.animation.tracks import Animation
 from glrt.scene.camera import Camera
 from glrt.scene.files.assets import AssetFolder
+from glrt.scene.frames import animation_problems, with_values
 from glrt.scene.lights.background import Background
 from glrt.scene.lights.sky_image import SkyPicture, sky_picture
 from glrt.scene.lights.sun import Sun
 from glrt.scene.loading.file_copies import copy_files
-from glrt.scene.loading.mesh_parts import lacks_material
 from glrt.scene.loading.scene_files import with_files
 from glrt.scene.materials.base import Opaque
-from glrt.scene.materials.kinds import Material, glass_of
+from glrt.scene.materials.kinds import Material
+from glrt.scene.misfits import object_problems, sun_problems
 from glrt.scene.nesting import nesting_problems
 from glrt.scene.schema.fields import SceneFields
 from glrt.scene.schema.tables import to_tables, toml_text
@@ -55,6 +57,7 @@ class Scene(SceneFields):
         background: Background | Mapping[str, Any] | None = None,
         sun: Sun | Mapping[str, Any] | None = None,
         lights: Mapping[str, Number] | None = None,
+        animation: Animation | Mapping[str, Any] | None = None,
         render: RenderSettings | Mapping[str, Any] | None = None,
         title: str | None = None,
         folder: str | Path = ".",
@@ -75,6 +78,7 @@ class Scene(SceneFields):
             sun=sun,
             materials=materials,
             lights=lights,
+            animation=animation,
             objects=objects,
         )
         source = "Scene.build"
@@ -92,6 +96,31 @@ class Scene(SceneFields):
             raise UsageError(f"Cannot write {path}: the name of a scene file must end in .toml.")
         copy_files(self, file.parent)
         write_text(file, toml_text(self))
+
+    @property
+    def frames(self) -> int:
+        """Number of frames of its animation; 1 without one."""
+        return self.animation.count if self.animation else 1
+
+    def at_frame(self, number: int) -> Self:
+        """Return the still at a frame of the animation, from 0, with the values of that moment.
+
+        Raises `UsageError` for a frame that the animation lacks, and `SceneError` if a curve leaves
+        the range of its value between two keys.
+        """
+        if not 0 <= number < self.frames:
+            has = f"frames 0 to {self.frames - 1}" if self.animation else "frame 0 alone"
+            raise UsageError(f"there is no frame {number}: the scene has {has}")
+        if self.animation is None:
+            return self
+        moment = self.animation.moment(number)
+        values = {track.keys: track.at(moment) for track in self.animation.tracks}
+        return with_values(self.still, values, f"frame {number}")
+
+    @property
+    def still(self) -> Self:
+        """The scene without its animation, with the values that it holds itself."""
+        return self.model_copy(update={"animation": None}) if self.animation else self
 
     @property
     def shown(self) -> tuple[int, ...]:
@@ -190,8 +219,10 @@ class Scene(SceneFields):
     @model_validator(mode="after")
     def _fits_together(self) -> Self:
         nesting = nesting_problems(self.materials, self.visible)
-        lights = [*_sun_problems(self), *_light_problems(self)]
-        problems = [*_object_problems(self), *nesting, *lights, *_emptiness(self)]
+        lights = [*sun_problems(self), *_light_problems(self)]
+        problems = [*object_problems(self), *nesting, *lights, *_emptiness(self)]
+        if self.animation:
+            problems += animation_problems(self, self.light_groups)
         if problems:
             raise MisfitError(problems)
         return self
@@ -222,24 +253,6 @@ def _scaled(color: Radiance, factor: float) -> Radiance:
     return (color[0] * factor, color[1] * factor, color[2] * factor)
 
 
-def _object_problems(scene: Scene) -> Iterator[tuple[Place, str]]:
-    missing: set[str] = set()
-    for index, item in enumerate(scene.objects):
-        if lacks_material(item):
-            continue  # its file has materials
-        material = scene.materials.get(item.material)
-        if material is None and item.material not in missing:
-            missing.add(item.material)  # reported once, where it is used first
-            advice = unknown("material", item.material, sorted(scene.materials))
-            yield ("objects", index, "material"), advice
-        if not item.has_coordinates and isinstance(material, Opaque) and material.textures:
-            yield ("objects", index, "material"), _TEXTURE_ADVICE.format(item.shape)
-        glass = glass_of(material)
-        if glass and not (item.encloses or glass.thin):
-            article = "an open" if item.has_inside else "a"
-            yield ("objects", index), _GLASS_ADVICE.format(f"{article} {item.shape}")
-
-
 def _light_problems(scene: Scene) -> Iterator[tuple[Place, str]]:
     for name, material in scene.materials.items():
         group = getattr(material, "group", None) or (name if material.emits else None)
@@ -263,25 +276,6 @@ def _light_problems(scene: Scene) -> Iterator[tuple[Place, str]]:
         yield ("lights", SKY_GROUP), _too_bright("radiance of the background")
 
 
-def _sun_problems(scene: Scene) -> Iterator[tuple[Place, str]]:
-    sun, sky = scene.sun, scene.background.sky
-    if sky and not sun:
-        yield ("background", "sky"), "needs [sun], which says where the sun stands"
-    if sky and sun and sun.towards[1] < 0:
-        place = "direction" if sun.elevation is None else "elevation"
-        yield ("sun", place), "is below the horizon; background.sky is a sky of the day"
-    if sun and sun.irradiance is None and not sky:
-        yield ("sun", "irradiance"), "is missing; give it, or a background with sky"
-
-
-_GLASS_ADVICE = (
-    "{} encloses nothing, so it cannot be dielectric; use a sphere, a plane, a box, a "
-    "cylinder with caps or a closed mesh, or a material with thin = true"
-)
-_TEXTURE_ADVICE = (
-    "has a texture, and a {} has no texture coordinates; use a mesh of its form, or a material "
-    "without textures"
-)
 _SKY_ADVICE = (
     "must not be 'background', the light group of the background; give the lamp another group, so "
     "that each can be dimmed on its own"

@@ -4,6 +4,7 @@ from typing import Annotated
 
 from pydantic import Field, field_validator
 
+from glrt.scene.animation.tracks import Animation
 from glrt.scene.camera import Camera
 from glrt.scene.lights.background import Background
 from glrt.scene.lights.sun import Sun
@@ -45,6 +46,10 @@ class SceneFields(Frozen):
     )
     objects: tuple[Shape, ...] = Field(
         (), max_length=MAX_OBJECTS, description="the shapes, at most 65,536"
+    )
+
+    animation: Animation | None = Field(
+        None, description="values that change from frame to frame; default: a still"
     )
 
     @field_validator("format")

@@ -12,6 +12,7 @@ from pydantic_core import ErrorDetails
 
 from glrt.core.errors import SceneError
 from glrt.core.text import nearest, number, shortened, unknown
+from glrt.scene.animation.tracks import Animation, Track
 from glrt.scene.camera import Camera
 from glrt.scene.lights.background import Background
 from glrt.scene.lights.cone import Cone
@@ -36,7 +37,9 @@ _TABLES: dict[str, type[BaseModel]] = {
     "background": Background,
     "sun": Sun,
     "probes": Probes,
+    "animation": Animation,
 }
+_TRACK = 3  # keys down to a track: a longer location is of a key of it
 _KINDS: dict[str, dict[str, Any]] = {"materials": TYPES, "objects": KINDS}
 
 
@@ -141,6 +144,8 @@ def _model(location: Place) -> type[BaseModel]:
     table = str(location[0])
     if len(location) == 1:
         return SceneFields
+    if location[:2] == ("animation", "tracks") and len(location) > _TRACK:
+        return Track
     if table not in _KINDS:
         return _TABLES[table]
     if location[3:-1] == ("cone",):
@@ -204,6 +209,8 @@ _HEADINGS: dict[Place, str] = {
     ("background",): "must be a table headed [background]",
     ("sun",): "must be a table headed [sun]",
     ("probes",): "must be a table headed [probes]",
+    ("animation",): "must be a table headed [animation]",
+    ("animation", "tracks"): "must be a list of tables, each headed [[animation.tracks]]",
     ("lights",): "must be a table headed [lights]",
     ("materials",): "must be a table of tables, each headed [materials.NAME]",
     ("objects",): "must be a list of tables, each headed [[objects]]",
@@ -240,7 +247,7 @@ def _too_small(place: Place, detail: ErrorDetails) -> str:
 def _unknown_key(_place: Place, detail: ErrorDetails) -> str:
     model, table, key = _model(detail["loc"]), detail["loc"][0], str(detail["loc"][-1])
     kind = "scene" if model is SceneFields else model.__name__.lower()
-    owner = f"[{table}]" if table in _TABLES else f"a {kind}"
+    owner = f"[{table}]" if model in _TABLES.values() else f"a {kind}"
     text = unknown("key", key, _keys(detail), f"Keys of {owner}")
     if model is not SceneFields and key in SceneFields.model_fields:
         text += f" The {key} of the scene itself must stand above the first [table]."

@@ -143,7 +143,7 @@ def nearest_of_two(near: Array, far: Array) -> Array:
 
 def rotation(degrees: Vector) -> Array:
     """Return Rz Ry Rx, (3, 3), to turn columns by angles in degrees; exact at multiples of 90."""
-    (sx, cx), (sy, cy), (sz, cz) = map(_sine_and_cosine, degrees)
+    (sx, cx), (sy, cy), (sz, cz) = map(sine_and_cosine, degrees)
     about_x = np.array([[1, 0, 0], [0, cx, -sx], [0, sx, cx]])
     about_y = np.array([[cy, 0, sy], [0, 1, 0], [-sy, 0, cy]])
     about_z = np.array([[cz, -sz, 0], [sz, cz, 0], [0, 0, 1]])
@@ -151,7 +151,7 @@ def rotation(degrees: Vector) -> Array:
     return turn
 
 
-def _sine_and_cosine(degrees: float) -> tuple[float, float]:
+def sine_and_cosine(degrees: float) -> tuple[float, float]:
     turns, rest = divmod(math.fmod(degrees, 360.0), 90.0)
     angle = math.radians(rest)
     sine, cosine = math.sin(angle), math.cos(angle)

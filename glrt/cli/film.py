@@ -1,0 +1,199 @@
+"""`glrt film`: render a series of pictures: an animation, a turntable, or a sweep of values."""
+
+import argparse
+from dataclasses import replace
+from typing import Any
+
+from glrt.cli.caustics import with_caustics
+from glrt.cli.film_report import Reporter, named
+from glrt.cli.options import (
+    SCENE,
+    add_context,
+    add_files,
+    add_pipeline,
+    add_settings,
+    add_summary,
+    error_limit,
+    is_automatic,
+)
+from glrt.cli.request import order
+from glrt.core.errors import RenderError, UsageError
+from glrt.core.text import counted
+from glrt.image.sources import check_not_scene
+from glrt.process import signals
+from glrt.process.command import fail
+from glrt.rendering.stopping import Interruption
+from glrt.series.containers import check_container
+from glrt.series.film import Film
+from glrt.series.outputs import parse_output
+from glrt.series.rendering import Wishes
+from glrt.series.series import Series, chosen
+from glrt.series.sheet import check_sheet
+from glrt.series.sweeps import parse_sweep
+
+DESCRIPTION = "Render a series of pictures: the scene's animation, a turntable, or a sweep."
+EPILOG = (
+    "Frames that stand whole from an earlier run are kept if scene, settings and limits are the "
+    "same. Exit codes: 0 done, 1 a frame did not reach --error, 2 wrong usage or scene, 3 no "
+    "usable OpenGL, 4 frames failed and the others are kept, 129, 130 and 143 interrupted: the "
+    "same command goes on."
+)
+MOST_SWEEPS = 2  # rows and columns of a sheet
+MOST_FPS = 1000
+_OF_PARTICLES = ("caustics", "particles", "aimed", "linked")  # settings that a pilot chooses
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command to its parser."""
+    parser.add_argument("scene", metavar="SCENE", help=SCENE)
+    parser.add_argument(
+        "-o",
+        dest="output",
+        metavar="FILE",
+        required=True,
+        help="a film in .webp, .gif or .mp4; a sheet of all frames in .png; or a file for each "
+        "frame, such as frames/%%04d.exr, frames/%%04d.png or frames/####.exr",
+    )
+    group = parser.add_argument_group("frames")
+    group.add_argument(
+        "--frames",
+        type=_frames,
+        metavar="A-B",
+        help="first and last frame to render, from 0 (default: all)",
+    )
+    group.add_argument(
+        "--turntable",
+        type=_whole,
+        metavar="N",
+        help="N frames of a camera that goes once round the point it looks at, about its axis up",
+    )
+    group.add_argument(
+        "--sweep",
+        dest="sweeps",
+        action="append",
+        default=[],
+        type=_swept,
+        metavar="KEY=FROM:TO:N",
+        help="N frames in which a value goes from one number to another, as "
+        "materials.ball.roughness=0:1:5, camera.fov=20:80:7 or render.bounces=1:8:8; given twice: "
+        "rows and columns of a sheet",
+    )
+    group.add_argument(
+        "--fps",
+        type=float,
+        metavar="X",
+        help="frames a second at which the film plays (default: those of the animation, or 24)",
+    )
+    group.add_argument(
+        "--vary-seed",
+        action="store_true",
+        help="another seed for each frame: noise flickers, instead of standing still",
+    )
+    group.add_argument(
+        "--keep-frames",
+        action="store_true",
+        help="keep the frames of a film or a sheet, which lie in FILE.frames",
+    )
+    add_settings(parser, has_auto=True)
+    parser.add_argument(
+        "--time", type=float, metavar="SECONDS", help="stop each frame after this time"
+    )
+    parser.add_argument(
+        "--error",
+        type=error_limit,
+        metavar="E",
+        help="stop each frame at this estimated relative RMS error (2%% or 0.02)",
+    )
+    add_context(parser)
+    add_pipeline(parser)
+    add_files(parser)
+    add_summary(parser, "no progress and no summary")
+    parser.set_defaults(resume=None, part=None, frame=0)
+
+
+def _frames(text: str) -> tuple[int, int]:
+    first, _, last = text.partition("-")
+    try:
+        found = int(first), int(last or first)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is not A-B, such as 0-47") from None
+    if not 0 <= found[0] <= found[1]:
+        raise argparse.ArgumentTypeError(f"{text!r}: the first frame must not be after the last")
+    return found
+
+
+def _whole(text: str) -> int:
+    if not text.isdecimal() or not int(text):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number of frames, 1 or more")
+    return int(text)
+
+
+def _swept(text: str) -> Any:
+    try:
+        return parse_sweep(text)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Render a film; the exit code is 1 if a frame did not reach `--error`, 4 if some failed."""
+    film = _film(arguments)
+    reporter = Reporter(arguments, film)
+    with Interruption().watched() as interruption:
+        with reporter.watching() as watch:
+            for frame in film.render(interruption, watch):
+                reporter.report(frame)
+        if interruption.signal is not None:
+            done = f"{len(film.standing)} of {counted(len(film.numbers), 'frame')}"
+            text = f"interrupted; {done} stand: the same command goes on"
+            return fail(text, signals.INTERRUPTED + interruption.signal)
+    if film.failed:
+        text = f"{named(film.failed)} failed; the others are kept in {film.output.folder}"
+        return fail(text, RenderError.exit_code)
+    film.write(arguments.keep_frames)
+    reporter.summarize()
+    if film.missed:
+        text = f"--error {arguments.error:g} was not reached by {named(film.missed)}"
+        return fail(f"{text}. The film is saved; give more --samples or --time.", 1)
+    return 0
+
+
+def _film(arguments: argparse.Namespace) -> Film:
+    _check(arguments)
+    output = parse_output(arguments.output)
+    check_container(output.path)
+    check_not_scene(output.path, arguments.scene)
+    wanted = order(arguments)
+    series = Series(
+        *(wanted.scene, wanted.settings, arguments.turntable, tuple(arguments.sweeps)),
+        varies_seed=arguments.vary_seed,
+    )
+    numbers = chosen(series.count, arguments.frames)
+    if output.kind == "sheet":
+        check_sheet(series, len(numbers))
+    series.check()
+    output.check(numbers.start)
+    first = series.still(0)
+    wanted = with_caustics(arguments, replace(wanted, scene=first.scene, settings=first.settings))
+    particles = {name: getattr(wanted.settings, name) for name in _OF_PARTICLES}
+    series = replace(series, settings=series.settings.model_copy(update=particles))
+    wishes = Wishes(
+        *(arguments.time, arguments.error, arguments.context, arguments.pipeline),
+        wanted.decisions,
+    )
+    return Film(series, numbers, output, wishes, arguments.fps)
+
+
+def _check(arguments: argparse.Namespace) -> None:
+    """Raise `UsageError` for options that do not go together, or are out of range."""
+    if is_automatic(arguments):
+        raise UsageError(
+            "--method auto measures a single picture. Find a method for the film by `glrt inspect "
+            "SCENE --error E`, and give it by --method."
+        )
+    if arguments.turntable and arguments.sweeps:
+        raise UsageError("--turntable and --sweep do not go together: render one of them.")
+    if len(arguments.sweeps) > MOST_SWEEPS:
+        raise UsageError("--sweep can be given twice: rows and columns of a sheet.")
+    if arguments.fps is not None and not 0 < arguments.fps <= MOST_FPS:
+        raise UsageError(f"--fps must be above 0 and at most {MOST_FPS}, got {arguments.fps:g}.")

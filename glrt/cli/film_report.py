@@ -1,0 +1,105 @@
+"""Report of `glrt film`: progress, a line for each frame, and the film."""
+
+import argparse
+import sys
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from typing import Any
+
+import numpy as np
+
+from glrt.cli.progress import film_bar
+from glrt.core.text import counted
+from glrt.process.command import file_names, print_figures
+from glrt.rendering.renderer import Renderer
+from glrt.rendering.stopping import Limits
+from glrt.series.film import Film
+from glrt.series.rendering import Frame, Watch
+
+MOST_NAMED = 10
+
+
+class Reporter:
+    """Prints how a film comes along: JSON on stdout, or prose on stderr."""
+
+    def __init__(self, arguments: argparse.Namespace, film: Film) -> None:
+        """Start the clock."""
+        self._arguments = arguments
+        self._film = film
+        self._start = time.perf_counter()
+
+    @contextmanager
+    def watching(self) -> Iterator[Watch | None]:
+        """Yield a function to call after each dispatch, which shows progress on a terminal."""
+        if self._arguments.quiet or not sys.stderr.isatty():
+            yield None
+            return
+        film = self._film
+        with film_bar(len(film.numbers)) as show:
+
+            def watch(number: int, limits: Limits, renderer: Renderer) -> None:
+                show(number, len(film.frames), limits, renderer)
+
+            yield watch
+
+    def report(self, frame: Frame) -> None:
+        """Print what became of a frame."""
+        if frame.failure:
+            print(f"glrt: frame {frame.number} failed: {frame.failure}", file=sys.stderr)
+        if self._arguments.json:
+            print_figures(_figures(frame), [str(frame.file)])
+        elif frame.image and not self._arguments.quiet:
+            print(self._line(frame), file=sys.stderr)
+
+    def _line(self, frame: Frame) -> str:
+        image, film = frame.image, self._film
+        assert image
+        error = "" if image.error is None else f", error {100 * image.error:.2g} %"
+        place = f"{len(film.frames)} of {len(film.numbers)}"
+        work = f"{counted(image.samples, 'sample')} in {frame.seconds:.1f} s"
+        return f"Frame {frame.number} ({place}, {frame.label}): {work}{error}{self._to_go()}."
+
+    def _to_go(self) -> str:
+        left = len(self._film.numbers) - len(self._film.frames)
+        times = [frame.seconds for frame in self._film.frames if frame.image]
+        return f"; {left * float(np.median(times)):.0f} s to go" if left else ""
+
+    def summarize(self) -> None:
+        """Print the figures of the film."""
+        film, new = self._film, sum(frame.image is not None for frame in self._film.frames)
+        name, count = str(film.output.path), len(film.frames)
+        width, height = film.series.settings.size
+        seconds = time.perf_counter() - self._start
+        if self._arguments.json:
+            figures = {"film": name, "frames": count, "rendered": new, "fps": film.fps}
+            size = {"width": width, "height": height}
+            print_figures({**figures, **size, "seconds": round(seconds, 6)}, [name])
+        elif not self._arguments.quiet:
+            print(
+                f"Wrote {file_names([name])}: {counted(count, 'frame')} of {width} x {height}, "
+                f"{new or 'none'} of them rendered now, in {seconds:.1f} s.",
+                file=sys.stderr,
+            )
+
+
+def named(frames: Sequence[Frame]) -> str:
+    """Return the numbers of frames for a message, at most MOST_NAMED of them."""
+    some = ", ".join(str(frame.number) for frame in frames[:MOST_NAMED])
+    rest = f" and {len(frames) - MOST_NAMED} more" if len(frames) > MOST_NAMED else ""
+    return f"{'frame' if len(frames) == 1 else 'frames'} {some}{rest}"
+
+
+def _figures(frame: Frame) -> dict[str, Any]:
+    image = frame.image
+    return {
+        "frame": frame.number,
+        "file": str(frame.file),
+        "label": frame.label,
+        "kept": bool(frame.record and not image),
+        "failure": frame.failure or None,
+        "reached": None if frame.record is None else frame.record.reached,
+        "samples": image.samples if image else None,
+        "error": image.error if image else None,
+        "seconds": round(frame.seconds, 6),
+    }

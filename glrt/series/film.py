@@ -1,0 +1,97 @@
+"""A film: the frames of a series, and the file that is made of them."""
+
+import json
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from shutil import rmtree
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glrt.core.version import VERSION
+from glrt.image.image import Image
+from glrt.image.tonemap import expose_and_encode
+from glrt.rendering.stopping import Interruption
+from glrt.scene.animation.tracks import Animation
+from glrt.scene.scenefile.toml import scene_to_dict
+from glrt.series.containers import write_container
+from glrt.series.outputs import Output
+from glrt.series.rendering import Frame, Watch, Wishes, render_frames
+from glrt.series.series import Series, describe
+from glrt.series.sheet import Cell, write_sheet
+
+
+@dataclass
+class Film:
+    """A series to render, its files, and the frames as they come to stand."""
+
+    series: Series
+    numbers: range  # frames to render
+    output: Output
+    wishes: Wishes
+    own_fps: float | None = None
+    frames: list[Frame] = field(default_factory=list)
+
+    @property
+    def fps(self) -> float:
+        """Frames a second at which the film plays: given, or those of the animation."""
+        return self.own_fps or (self.series.scene.animation or Animation()).fps
+
+    @property
+    def standing(self) -> list[Frame]:
+        """The frames that did not fail."""
+        return [frame for frame in self.frames if frame.record]
+
+    @property
+    def failed(self) -> list[Frame]:
+        """The frames that failed."""
+        return [frame for frame in self.frames if frame.failure]
+
+    @property
+    def missed(self) -> list[Frame]:
+        """The frames that stand, but did not reach their error."""
+        return [frame for frame in self.frames if frame.is_missed]
+
+    @property
+    def recipe(self) -> str:
+        """All that makes the film, as JSON."""
+        film = {
+            "version": VERSION,
+            "scene": scene_to_dict(self.series.scene),
+            "settings": self.series.settings.model_dump(mode="json"),
+            "frames": [self.numbers.start, self.numbers.stop - 1],
+            "fps": self.fps,
+            **dict(describe(self.series)),
+        }
+        return json.dumps(film, allow_nan=False)
+
+    def render(self, interruption: Interruption, watch: Watch | None = None) -> Iterator[Frame]:
+        """Render the frames that are missing; yields each as it stands, as `render_frames`."""
+        rest = self.wishes, interruption, watch
+        for frame in render_frames(self.series, self.numbers, self.output, *rest):
+            self.frames.append(frame)
+            yield frame
+
+    def write(self, keeps_frames: bool) -> None:
+        """Write the film or the sheet of its frames, and remove their folder unless told to keep.
+
+        Raises `RenderError` if it cannot be written: the frames then stay.
+        """
+        output = self.output
+        if output.kind == "frames":
+            return
+        codes = map(self._codes, self.frames)
+        if output.kind == "container":
+            write_container(output.path, codes, len(self.frames), self.fps, self.recipe)
+        else:
+            cells = [
+                Cell(c, frame.label.split(", "))
+                for c, frame in zip(codes, self.frames, strict=True)
+            ]
+            write_sheet(output.path, cells, self.series.columns, self.recipe)
+        if not keeps_frames:
+            rmtree(output.folder, ignore_errors=True)
+
+    def _codes(self, frame: Frame) -> NDArray[np.uint8]:
+        image, settings = Image.load(frame.file), self.series.settings
+        return expose_and_encode(image.shown, settings.exposure, settings.tonemap)

@@ -1,0 +1,167 @@
+"""Render the frames of a series that are missing, with one renderer from frame to frame."""
+
+import time
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import NamedTuple
+
+from glrt.core.errors import GlrtError, RenderError, SceneError
+from glrt.gpu.context import Choice, Pipeline
+from glrt.image.image import Image
+from glrt.image.recipe import FrameLimits
+from glrt.rendering.renderer import Renderer
+from glrt.rendering.stopping import Interruption, Limits, render_to_limit
+from glrt.series.kept_frames import kept
+from glrt.series.outputs import Output
+from glrt.series.series import Series, Still
+
+# Samples times shapes of a frame from which a kernel with the shapes written into it pays, although
+# it compiles for each frame in which shapes or camera move (docs/results/speed.md).
+MUCH_WORK = 400_000_000
+
+Watch = Callable[[int, Limits, Renderer], None]  # called with the number of the frame
+Watched = Callable[[Renderer], None]
+
+
+@dataclass(frozen=True)
+class Wishes:
+    """How each frame is rendered."""
+
+    seconds: float | None = None  # limit of a frame's render
+    error: float | None = None  # error that ends a frame
+    context: Choice = "auto"
+    pipeline: Pipeline = "auto"
+    decisions: Mapping[str, str] = field(default_factory=dict)  # as in recipes
+
+    def of(self, number: int) -> FrameLimits:
+        """Return the record of a frame that keeps these limits."""
+        return FrameLimits(number=number, seconds=self.seconds, error=self.error)
+
+    def limits(self, still: Still) -> Limits:
+        """Return the limits of a frame whose render begins now."""
+        deadline = None if self.seconds is None else time.perf_counter() + self.seconds
+        return Limits(still.settings.samples, deadline, self.error)
+
+
+class Frame(NamedTuple):
+    """A frame that stands, or that failed."""
+
+    number: int
+    file: Path
+    label: str = ""
+    record: FrameLimits | None = None  # None: it failed
+    image: Image | None = None  # None: it was kept from before, or failed
+    seconds: float = 0.0
+    failure: str = ""
+
+    @property
+    def is_missed(self) -> bool:
+        """Whether the frame stands, but did not reach its error."""
+        return self.record is not None and not self.record.reached
+
+
+class Camerawork:
+    """Renders one still after another; what fits the next one is kept: program, trees, film."""
+
+    def __init__(self, wishes: Wishes) -> None:
+        """Open nothing yet."""
+        self._wishes = wishes
+        self._renderer: Renderer | None = None
+
+    def render(
+        self, still: Still, limits: Limits, interruption: Interruption, watch: Watched | None
+    ) -> Image | None:
+        """Return the picture of a still; None if interrupted before its limit.
+
+        Raises the errors of `Renderer`; the next still then opens a new one.
+        """
+        try:
+            renderer = self._renderer_of(still)
+            image = render_to_limit(renderer, limits, interruption, watch)
+        except GlrtError:
+            self.release()
+            raise
+        return None if interruption.signal is not None else image
+
+    def _renderer_of(self, still: Still) -> Renderer:
+        renderer, wishes = self._renderer, self._wishes
+        if renderer is None:
+            self._renderer = renderer = Renderer(
+                *(still.scene, still.settings, wishes.context, "generic", wishes.pipeline),
+                decisions=wishes.decisions,
+            )
+        else:
+            renderer.update(still.scene, **dict(still.settings))
+            renderer.restart()
+        if _work(still) >= MUCH_WORK:
+            renderer.bake()
+        return renderer
+
+    def release(self) -> None:
+        """Release OpenGL."""
+        if self._renderer:
+            self._renderer.release()
+        self._renderer = None
+
+
+def _work(still: Still) -> int:
+    width, height = still.settings.size
+    return width * height * still.settings.samples * max(1, len(still.scene.objects))
+
+
+def render_frames(
+    series: Series,
+    numbers: Iterable[int],
+    output: Output,
+    wishes: Wishes,
+    interruption: Interruption,
+    watch: Watch | None = None,
+) -> Iterator[Frame]:
+    """Yield the frames, each as it stands: kept from before, rendered and saved now, or failed.
+
+    `watch` is called with the number of the frame and its limits after each dispatch. An
+    interruption ends the series after the frames that are complete. Raises `RenderError` if a file
+    cannot be written.
+    """
+    work = Camerawork(wishes)
+    try:
+        for number in numbers:
+            if interruption.signal is not None:
+                return
+            frame = _frame(series, number, output, wishes, work, interruption, watch)
+            if frame is not None:
+                yield frame
+    finally:
+        work.release()
+
+
+def _frame(
+    series: Series,
+    number: int,
+    output: Output,
+    wishes: Wishes,
+    work: Camerawork,
+    interruption: Interruption,
+    watch: Watch | None,
+) -> Frame | None:
+    start, file = time.perf_counter(), output.frame(number)
+    try:
+        still = series.still(number)
+        if record := kept(file, still, wishes.of(number)):
+            return Frame(number, file, still.label, record)
+        limits = wishes.limits(still)
+        watched = (lambda renderer: watch(number, limits, renderer)) if watch else None
+        image = work.render(still, limits, interruption, watched)
+    except (SceneError, RenderError) as error:
+        return Frame(number, file, failure=str(error))
+    if image is None:
+        return None
+    record = wishes.of(number)
+    reached = image.error_to_reach
+    if wishes.error is not None and (reached is None or reached > wishes.error):
+        record = record.model_copy(update={"reached": False})
+    if image.recipe:
+        image = replace(image, recipe=image.recipe.model_copy(update={"frame": record}))
+    image.save(file)
+    return Frame(number, file, still.label, record, image, time.perf_counter() - start)

@@ -1,0 +1,138 @@
+"""The frames of a series: of an animation, of a turntable, or of sweeps."""
+
+import itertools
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+
+from glrt.core.errors import UsageError
+from glrt.scene.camera import Camera
+from glrt.scene.frames import with_values
+from glrt.scene.scene import Scene
+from glrt.scene.shapes.box import sine_and_cosine
+from glrt.series.sweeps import SETTINGS, Sweep, setting_changes
+from glrt.settings import Settings, settings_for
+
+Kind = Literal["animation", "turntable", "sweep"]
+TURN = 360.0  # degrees
+SEEDS = 1 << 32
+
+
+class Still(NamedTuple):
+    """A frame as a scene and settings, with a label for people."""
+
+    scene: Scene
+    settings: Settings
+    label: str
+
+
+@dataclass(frozen=True)
+class Series:
+    """Frames of a scene, from 0: of its animation, of `turns` round it, or of sweeps.
+
+    With `varies_seed` each frame has a seed of its own: the settings' plus its number.
+    """
+
+    scene: Scene
+    settings: Settings
+    turns: int | None = None  # frames of a turntable
+    sweeps: tuple[Sweep, ...] = ()  # the last one changes fastest
+    varies_seed: bool = False
+    steps: tuple[tuple[int, ...], ...] = field(init=False)  # of sweeps, for each frame
+
+    def __post_init__(self) -> None:
+        """List the steps of all sweeps."""
+        steps = itertools.product(*(range(sweep.steps) for sweep in self.sweeps))
+        object.__setattr__(self, "steps", tuple(steps) if self.sweeps else ())
+
+    @property
+    def kind(self) -> Kind:
+        """What changes from frame to frame."""
+        if self.sweeps:
+            return "sweep"
+        return "animation" if self.turns is None else "turntable"
+
+    @property
+    def count(self) -> int:
+        """The number of frames."""
+        return len(self.steps) or self.turns or self.scene.frames
+
+    @property
+    def columns(self) -> int:
+        """Columns of a contact sheet: steps of the second of two sweeps, else a near square."""
+        if len(self.sweeps) > 1:
+            return self.sweeps[-1].steps
+        return math.ceil(math.sqrt(self.count))
+
+    def check(self) -> None:
+        """Raise the errors of `still` for the steps of sweeps; animations check their keys."""
+        for number in range(len(self.steps)):
+            self.still(number)
+
+    def still(self, number: int) -> Still:
+        """Return a frame.
+
+        Raises `SceneError` for values out of range and `UsageError` for such settings.
+        """
+        settings = self.settings
+        if self.varies_seed:
+            settings = settings_for(settings, seed=(settings.seed + number) % SEEDS)
+        if self.sweeps:
+            return self._swept(number, settings)
+        if self.turns is None:
+            return Still(self.scene.at_frame(number), settings, self._moment(number))
+        scene = self.scene.at_frame(0)
+        degrees = TURN * number / self.turns
+        camera = turned(scene.camera, degrees)
+        return Still(scene.model_copy(update={"camera": camera}), settings, f"{degrees:g} degrees")
+
+    def _moment(self, number: int) -> str:
+        animation = self.scene.animation
+        return f"{animation.moment(number):.4g} s" if animation else "still"
+
+    def _swept(self, number: int, settings: Settings) -> Still:
+        steps = self.steps[number]
+        pairs = list(zip(self.sweeps, steps, strict=True))
+        label = ", ".join(sweep.label(step) for sweep, step in pairs)
+        values: dict[tuple[str, ...], Any] = {s.keys: s.value(step) for s, step in pairs}
+        changes = setting_changes(values)
+        of_scene = {keys: value for keys, value in values.items() if keys[0] != SETTINGS}
+        scene = with_values(self.scene.at_frame(0), of_scene, f"frame {number}")
+        return Still(scene, settings_for(settings, **changes), label)
+
+
+def chosen(count: int, frames: tuple[int, int] | None) -> range:
+    """Return the numbers of the frames to render, first and last given; UsageError beyond."""
+    first, last = frames or (0, count - 1)
+    if last >= count:
+        raise UsageError(f"--frames {first}-{last}: the series has frames 0 to {count - 1}.")
+    return range(first, last + 1)
+
+
+def turned(camera: Camera, degrees: float) -> Camera:
+    """Return the camera turned about the axis `up` through the point it looks at.
+
+    Seen from above it moves counter-clockwise; 0 degrees leave it as it is, bit for bit.
+    """
+    if degrees == 0:
+        return camera
+    axis = np.array(camera.up) / np.linalg.norm(camera.up)
+    arm = np.array(camera.position) - np.array(camera.look_at)
+    sine, cosine = sine_and_cosine(degrees)
+    along = (arm @ axis) * axis
+    moved = along + cosine * (arm - along) + sine * np.cross(axis, arm)  # Rodrigues' formula
+    x, y, z = (float(value) for value in np.array(camera.look_at) + moved)
+    return camera.model_copy(update={"position": (x, y, z)})
+
+
+def describe(series: Series) -> Sequence[tuple[str, Any]]:
+    """Return what makes the series, as keys and plain values for the recipe of a film."""
+    if series.kind == "turntable":
+        return [("turntable", series.turns)]
+    if series.kind == "sweep":
+        rows = [[s.name, list(s.start), list(s.end), s.steps] for s in series.sweeps]
+        return [("sweep", rows)]
+    return [("animation", series.count)]

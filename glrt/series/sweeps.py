@@ -1,0 +1,93 @@
+"""Values from one number to another, for `--sweep KEY=FROM:TO:N`."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from glrt.core.text import number, quoted
+from glrt.scene.animation.tracks import parse_target
+from glrt.settings import Settings
+
+SETTINGS = "render"  # the table of a key that is a setting
+MOST_STEPS = 10_000
+_OF_SIZE = ("width", "height")  # all frames of a film are of one size
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """A value of a scene, or a setting as ("render", "bounces"), in steps of equal size."""
+
+    keys: tuple[str, ...]
+    start: tuple[float, ...]
+    end: tuple[float, ...]
+    steps: int
+
+    @property
+    def name(self) -> str:
+        """The key, as the user wrote it but for quotes."""
+        return ".".join(self.keys)
+
+    def value(self, step: int) -> float | tuple[float, ...]:
+        """Return the value of a step, from 0; the first and the last are exact."""
+        share = step / (self.steps - 1) if self.steps > 1 else 0.0
+        ends = zip(self.start, self.end, strict=True)
+        found = tuple((1 - share) * low + share * high for low, high in ends)
+        return found if len(found) > 1 else found[0]
+
+    def label(self, step: int) -> str:
+        """Return the last key and the value of a step, for people."""
+        value = self.value(step)
+        numbers = value if isinstance(value, tuple) else (value,)
+        return f"{self.keys[-1]} {' '.join(number(round(x, 6)) for x in numbers)}"
+
+
+def parse_sweep(text: str) -> Sweep:
+    """Parse `KEY=FROM:TO:N`; ValueError says what is wrong."""
+    key, equals, range_ = text.rpartition("=")
+    parts = range_.split(":")
+    if not equals or len(parts) != len(("FROM", "TO", "N")):
+        raise ValueError(
+            f"{quoted(text)} is not KEY=FROM:TO:N, such as materials.ball.roughness=0:1:5"
+        )
+    start, end = (_numbers(part, text) for part in parts[:2])
+    if len(start) != len(end):
+        raise ValueError(f"{quoted(text)}: FROM and TO must have as many numbers each")
+    try:
+        steps = int(parts[2])
+    except ValueError:
+        steps = 0
+    if not 1 <= steps <= MOST_STEPS:
+        raise ValueError(f"{quoted(text)}: N must be a whole number from 1 to {MOST_STEPS:,}")
+    return Sweep(_keys(key.strip()), start, end, steps)
+
+
+def _keys(text: str) -> tuple[str, ...]:
+    table, _, name = text.partition(".")
+    if table != SETTINGS:
+        return parse_target(text)
+    known = sorted(_numeric_settings())
+    if name not in known:
+        raise ValueError(f"{quoted(text)}: a sweep can change {', '.join(known)} of render")
+    return (SETTINGS, name)
+
+
+def _numeric_settings() -> Sequence[str]:
+    fields = Settings.model_fields.items()
+    is_number = (name for name, field in fields if field.annotation in (int, float))
+    return [name for name in is_number if name not in _OF_SIZE]
+
+
+def _numbers(text: str, whole: str) -> tuple[float, ...]:
+    try:
+        return tuple(float(part) for part in text.split(","))
+    except ValueError:
+        raise ValueError(
+            f"{quoted(whole)}: FROM and TO must be numbers, or as many numbers with commas between"
+        ) from None
+
+
+def setting_changes(values: dict[tuple[str, ...], Any]) -> dict[str, Any]:
+    """Return the settings among values by key; those that count things are whole numbers."""
+    found = {keys[1]: value for keys, value in values.items() if keys[0] == SETTINGS}
+    fields = Settings.model_fields
+    return {name: round(v) if fields[name].annotation is int else v for name, v in found.items()}
