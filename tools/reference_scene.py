@@ -7,6 +7,7 @@ from typing import Any
 from pydantic import BaseModel
 from reference_markdown import GENERATED, table
 
+from glrt.scene.animation.tracks import Animation, Track
 from glrt.scene.camera import Camera
 from glrt.scene.lights.background import Background
 from glrt.scene.lights.clear_sky import ClearSky
@@ -33,6 +34,8 @@ SCENE_TABLES: list[tuple[str, str, type[BaseModel]]] = [
         ClearSky,
     ),
     ("[sun]", "Optional; there is none by default.", Sun),
+    ("[animation]", "Optional. [Make films](../how-to/films.md).", Animation),
+    ("[[animation.tracks]]", "", Track),
     ("[probes]", "Optional. [Probes](../explanation/probes.md).", Probes),
     *((f"[materials.NAME] of type {name}", NOTES.get(name, ""), TYPES[name]) for name in TYPES),
     (

@@ -54,6 +54,26 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="a film in .webp, .gif or .mp4; a sheet of all frames in .png; or a file for each "
         "frame, such as frames/%%04d.exr, frames/%%04d.png or frames/####.exr",
     )
+    _add_frames(parser)
+    add_settings(parser, has_auto=True)
+    parser.add_argument(
+        "--time", type=float, metavar="SECONDS", help="stop each frame after this time"
+    )
+    parser.add_argument(
+        "--error",
+        type=error_limit,
+        metavar="E",
+        help="stop each frame at this estimated relative RMS error (2%% or 0.02)",
+    )
+    add_context(parser)
+    add_pipeline(parser)
+    add_files(parser)
+    add_summary(parser, "no progress and no summary")
+    parser.set_defaults(resume=None, part=None, frame=0)
+
+
+def _add_frames(parser: argparse.ArgumentParser) -> None:
+    """Add the options that say which frames there are."""
     group = parser.add_argument_group("frames")
     group.add_argument(
         "--frames",
@@ -94,21 +114,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="keep the frames of a film or a sheet, which lie in FILE.frames",
     )
-    add_settings(parser, has_auto=True)
-    parser.add_argument(
-        "--time", type=float, metavar="SECONDS", help="stop each frame after this time"
-    )
-    parser.add_argument(
-        "--error",
-        type=error_limit,
-        metavar="E",
-        help="stop each frame at this estimated relative RMS error (2%% or 0.02)",
-    )
-    add_context(parser)
-    add_pipeline(parser)
-    add_files(parser)
-    add_summary(parser, "no progress and no summary")
-    parser.set_defaults(resume=None, part=None, frame=0)
 
 
 def _frames(text: str) -> tuple[int, int]:

@@ -73,7 +73,7 @@ class Film:
             yield frame
 
     def write(self, keeps_frames: bool) -> None:
-        """Write the film or the sheet of its frames, and remove their folder unless told to keep.
+        """Write the film or the sheet of its frames, and remove their folder unless it is to stay.
 
         Raises `RenderError` if it cannot be written: the frames then stay.
         """

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from glrt.core.errors import GlrtError, RenderError, SceneError
-from glrt.gpu.context import Choice, Pipeline
+from glrt.gpu.context import Choice, Context, Pipeline
 from glrt.image.image import Image
 from glrt.image.recipe import FrameLimits
 from glrt.rendering.renderer import Renderer
@@ -16,9 +16,9 @@ from glrt.series.kept_frames import kept
 from glrt.series.outputs import Output
 from glrt.series.series import Series, Still
 
-# Samples times shapes of a frame from which a kernel with the shapes written into it pays, although
-# it compiles for each frame in which shapes or camera move (docs/results/speed.md).
-MUCH_WORK = 400_000_000
+# Pixels times samples times shapes of a frame, from which a kernel with the shapes written into it
+# pays, although it compiles for each frame in which shapes or camera move (docs/results/speed.md).
+MUCH_WORK = 32_000_000
 
 Watch = Callable[[int, Limits, Renderer], None]  # called with the number of the frame
 Watched = Callable[[Renderer], None]
@@ -30,7 +30,7 @@ class Wishes:
 
     seconds: float | None = None  # limit of a frame's render
     error: float | None = None  # error that ends a frame
-    context: Choice = "auto"
+    context: Context | Choice = "auto"
     pipeline: Pipeline = "auto"
     decisions: Mapping[str, str] = field(default_factory=dict)  # as in recipes
 

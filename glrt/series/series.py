@@ -50,7 +50,7 @@ class Series:
 
     @property
     def kind(self) -> Kind:
-        """What changes from frame to frame."""
+        """The kind of change from frame to frame."""
         if self.sweeps:
             return "sweep"
         return "animation" if self.turns is None else "turntable"

@@ -24,7 +24,7 @@ class Sweep:
 
     @property
     def name(self) -> str:
-        """The key, as the user wrote it but for quotes."""
+        """The key, as the user wrote it, without quotes."""
         return ".".join(self.keys)
 
     def value(self, step: int) -> float | tuple[float, ...]:
@@ -87,7 +87,7 @@ def _numbers(text: str, whole: str) -> tuple[float, ...]:
 
 
 def setting_changes(values: dict[tuple[str, ...], Any]) -> dict[str, Any]:
-    """Return the settings among values by key; those that count things are whole numbers."""
+    """Return the settings among values by key; counts are whole numbers."""
     found = {keys[1]: value for keys, value in values.items() if keys[0] == SETTINGS}
     fields = Settings.model_fields
     return {name: round(v) if fields[name].annotation is int else v for name, v in found.items()}

@@ -1,0 +1,1 @@
+"""Series of pictures: animations, turntables, sweeps, and the files made of them."""
