@@ -122,7 +122,12 @@ def kind(part: dict[str, Any]) -> str:
         return f"{len(part['prefixItems'])} {what}"
     if part.get("type") == "array":
         of = "" if "enum" in part.get("items", {}) else " numbers"
-        return f"{part['maxItems']}{of}" if "minItems" in part else "list of tables"
+        items = part.get("items", {})
+        if not {"type", "anyOf"} & items.keys():
+            return "list of tables"
+        if "maxItems" in part:
+            return f"{part['maxItems']}{of}"
+        return "list of numbers" if "type" in items else "list of numbers or vectors"
     if part.get("type") == "object" or "$ref" in part or "allOf" in part:
         return "table"
     return WORDS[str(part["type"])] if "type" in part else "number or 3 numbers"
