@@ -123,7 +123,7 @@ def kind(part: dict[str, Any]) -> str:
     if part.get("type") == "array":
         of = "" if "enum" in part.get("items", {}) else " numbers"
         items = part.get("items", {})
-        if not {"type", "anyOf"} & items.keys():
+        if not {"type", "anyOf", "enum"} & items.keys():
             return "list of tables"
         if "maxItems" in part:
             return f"{part['maxItems']}{of}"
