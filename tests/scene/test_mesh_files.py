@@ -127,7 +127,7 @@ BROKEN: dict[str, tuple[str, bytes, str]] = {
     "points alone": ("thing.ply", ascii_ply([]), "it has no triangles"),
     "half a PLY": ("thing.ply", FILES["binary PLY"][1][:-30], "is damaged, or no PLY file"),
     "half an STL": ("thing.stl", binary_stl()[:-60], "is damaged, or no STL file"),
-    "a corner that is not there": ("thing.ply", ascii_ply([[0, 1, 99]]), "triangle 0 has the"),
+    "a corner that is not there": ("thing.ply", ascii_ply([[0, 1, 99]]), "names vertex 99"),
     "an OBJ corner that is not there": ("thing.obj", obj([[1, 2, 99]]), "no OBJ file"),
     "a huge PLY": (
         "thing.ply",

@@ -12,7 +12,8 @@ from glrt.image.image import Image, read_recipe
 from glrt.plan.facts import SceneFacts
 from glrt.scene.files.assets import AssetFolder
 from glrt.scene.loading.scene_files import with_files
-from glrt.scene.model_files.mesh_formats import decode_mesh, libraries
+from glrt.scene.model_files.mesh_formats import decode_mesh
+from glrt.scene.model_files.obj import libraries
 from glrt.scene.scene import Scene
 from glrt.scene.scenefile.toml_writer import write_scene
 from glrt.scene.shapes.mesh import Mesh

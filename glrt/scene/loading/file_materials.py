@@ -22,8 +22,8 @@ from glrt.scene.model_files.gltf.materials import (
     make_pane,
     without_image,
 )
-from glrt.scene.model_files.mesh_formats import libraries
 from glrt.scene.model_files.mtl import Entry, decode_mtl, material_of
+from glrt.scene.model_files.obj import libraries
 from glrt.scene.schema.validation import validated
 from glrt.scene.shapes.mesh import Mesh
 

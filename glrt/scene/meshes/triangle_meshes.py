@@ -1,6 +1,6 @@
 """Triangle meshes as arrays: checked, with normals, and whether they enclose a volume."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -174,13 +174,14 @@ def checked(given: MeshArrays) -> TriangleMesh:
     return TriangleMesh(*own, names, labels, sets, along, int(again.sum()))
 
 
-def of_file(given: MeshArrays) -> TriangleMesh:
-    """Return a mesh as `checked` does, with invalid colors and texture coordinates replaced.
+def of_file(given: MeshArrays, left_out: Sequence[str] = ()) -> TriangleMesh:
+    """Return a mesh as `checked` does, with invalid colors, coordinates and normals replaced.
 
-    A color far out of range becomes white, and such texture coordinates become 0; `unread` of the
-    mesh counts the vertices.
+    A color far out of range becomes white, such texture coordinates become 0, and a normal that is
+    not finite becomes the mean of its triangles; `unread` of the mesh counts the vertices, in
+    addition to what is `left_out` already.
     """
-    unread = list[str]()
+    unread = list(left_out)
     colors: Any = given.colors
     uv: Any = given.uv
     if colors is not None:
@@ -193,7 +194,11 @@ def of_file(given: MeshArrays) -> TriangleMesh:
         uv = np.where(wrong[:, None], 0.0, uv)
         count = counted(int(wrong.sum()), "vertex")
         unread += [f"the texture coordinates of {count}"] if wrong.any() else []
-    found = checked(given._replace(colors=colors, uv=uv))
+    normals = given.normals
+    if normals is not None and (wrong := ~np.isfinite(normals).all(axis=1)).any():
+        normals = np.where(wrong[:, None], 0.0, normals)
+        unread.append(f"the normal of {counted(int(wrong.sum()), 'vertex')}")
+    found = checked(given._replace(normals=normals, colors=colors, uv=uv))
     return replace(found, unread=tuple(unread))
 
 
