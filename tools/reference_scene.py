@@ -114,7 +114,8 @@ def kind(part: dict[str, Any]) -> str:
     if "const" in part:
         return f"`{toml(part['const'])}`"
     if "enum" in part:
-        return ", ".join(f"`{value}`" for value in part["enum"])
+        shown = [toml(value) if isinstance(value, bool) else value for value in part["enum"]]
+        return ", ".join(f"`{value}`" for value in shown)
     if "prefixItems" in part:
         first = part["prefixItems"][0]
         words = {"integer": "whole numbers", "number": "numbers"}

@@ -39,7 +39,7 @@ class Bases(NamedTuple):
 class OwnTrees(NamedTuple):
     """The BVHs of some meshes, one after the other."""
 
-    names: tuple[tuple[str | None, str | None], ...]  # file and part of each
+    names: tuple[object, ...]  # file and part of each
     starts: tuple[Bases, ...]  # where the rows of each BVH start, beyond the bases
     height: int  # levels of the highest
     bases: Bases
@@ -61,7 +61,7 @@ class Instances(NamedTuple):
 def own_trees(meshes: Sequence[Mesh], known: OwnTrees | None) -> OwnTrees:
     """Return the BVHs of the distinct meshes; `known` itself if it holds them."""
     kinds = distinct(meshes)[0]
-    names = tuple((mesh.file.sha256, mesh.part) for mesh in kinds)
+    names = tuple(mesh.form for mesh in kinds)
     if known and known.names == names:
         return known
     starts, at, height = [], Bases(), 0

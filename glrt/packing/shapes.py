@@ -113,7 +113,7 @@ def pack_meshes(rows: Array, meshes: Sequence[Mesh], placing: Placing, first: in
     """Fill rows of the struct Mesh; glrt/packing/triangles.py packs the triangles."""
     del first  # meshes are no sampled lamps
     rows["material"] = [placing.material(mesh) for mesh in meshes]
-    rows["is_smooth"] = [mesh.smooth for mesh in meshes]
+    rows["is_smooth"] = [bool(mesh.smooth) for mesh in meshes]
 
 
 def unit(value: Array) -> Array:

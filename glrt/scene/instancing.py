@@ -24,10 +24,10 @@ def with_own_tree(
 
     Lamps have none, for each of their triangles is sampled where it stands.
     """
-    alike: dict[tuple[str | None, str | None], list[int]] = {}
+    alike: dict[object, list[int]] = {}
     for number, mesh in enumerate(meshes):
         if not materials[mesh.material].emits:
-            alike.setdefault((mesh.file.sha256, mesh.part), []).append(number)
+            alike.setdefault(mesh.form, []).append(number)
     chosen: list[int] = []
     for numbers in alike.values():
         triangles = len(meshes[numbers[0]].triangles.faces)
@@ -52,12 +52,12 @@ def after_moves(apart: Apart, before: Sequence[Mesh], after: Sequence[Mesh]) -> 
 
 
 def distinct(meshes: Sequence[Mesh]) -> tuple[list[Mesh], list[int]]:
-    """Return the first mesh of each file and part, and for each mesh the number of its first."""
-    numbers: dict[tuple[str | None, str | None], int] = {}
+    """Return the first mesh of each form, and for each mesh the number of its first."""
+    numbers: dict[object, int] = {}
     first: list[Mesh] = []
     kinds: list[int] = []
     for mesh in meshes:
-        kinds.append(numbers.setdefault((mesh.file.sha256, mesh.part), len(first)))
+        kinds.append(numbers.setdefault(mesh.form, len(first)))
         first += [mesh] if kinds[-1] == len(first) else []
     return first, kinds
 

@@ -50,7 +50,7 @@ def model_scene(path: Path, folder: AssetFolder, source: str) -> Scene:
     tables: Table = {
         "title": name,
         "materials": {},
-        "objects": [{"shape": "mesh", "file": file, "material": ""}],
+        "objects": [{"shape": "mesh", "file": file, "material": "", "smooth": "auto"}],
         **_view(file.triangles),
     }
     has_lights = False

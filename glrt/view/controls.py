@@ -38,7 +38,7 @@ class Control:
     low: float | None = None
     high: float | None = None
     slider: tuple[float, float] | None = None
-    choices: tuple[str, ...] = ()
+    choices: tuple[Any, ...] = ()
     told: tuple[str, ...] = ()  # explanation of each choice; empty if the words suffice
     reach: tuple[float, Cost] | None = None  # largest value of this cost, and the cost beyond it
 

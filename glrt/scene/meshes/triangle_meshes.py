@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glrt.core.text import counted, number
+from glrt.scene.meshes.creases import by_angle, by_groups
 from glrt.scene.meshes.repeated_triangles import repeated
 from glrt.scene.meshes.vertex_means import mean_normals, mean_tangents, places
 from glrt.scene.values import LARGEST
@@ -32,6 +33,7 @@ class TriangleMesh:
     names: tuple[str, ...] = ()  # names of the file's materials
     labels: Ints | None = None  # (n,): numbers of names; None if the file names none
     uv: Floats | None = None  # (v, 4): u and v of two sets of texture coordinates; None without
+    groups: Ints | None = None  # (n,): smoothing groups, 0 for flat; None for a format without them
     tangents: Floats | None = None  # (v, 3), along which the first u grows; None if not given
     repeated: int = 0  # triangles that were left out, since another one had the same corners
     unread: tuple[str, ...] = ()  # parts of the file that were left out, in words
@@ -115,7 +117,33 @@ class TriangleMesh:
         given = self.colors, self.uv, self.tangents
         colors, uv, tangents = (None if rows is None else rows[used] for rows in given)
         own = self.vertices[used], faces.reshape(-1, 3), normals[used], colors
-        return TriangleMesh(*own, uv=uv, tangents=tangents).outward
+        groups = None if self.groups is None else self.groups[kept]
+        return TriangleMesh(*own, uv=uv, groups=groups, tangents=tangents).outward
+
+    def creased(self, degrees: float) -> "TriangleMesh":
+        """Return the mesh with normals as its format means them, and vertices divided at creases.
+
+        Given normals are kept. The rest follows smoothing groups, or in a format without them the
+        angle between triangles: beyond it an edge is sharp.
+        """
+        if degrees not in self._creased:
+            self._creased[degrees] = self._divided(degrees)
+        return self._creased[degrees]
+
+    @cached_property
+    def _creased(self) -> dict[float, "TriangleMesh"]:
+        return {}
+
+    def _divided(self, degrees: float) -> "TriangleMesh":
+        if self.normals is not None and self.normals.any(axis=1).all():
+            return self
+        own = self.vertices, self.faces, self.normals
+        by = by_angle(*own, degrees) if self.groups is None else by_groups(*own, self.groups)
+        given = self.colors, self.uv, self.tangents
+        colors, uv, tangents = (None if rows is None else rows[by.vertex] for rows in given)
+        vertices = self.vertices[by.vertex]
+        new = replace(self, vertices=vertices, faces=by.faces, normals=by.normals)
+        return replace(new, colors=colors, uv=uv, tangents=tangents)
 
     def _volume(self) -> float:
         a, b, c = (self.vertices[self.faces[:, k]] - self.box[0] for k in range(3))
@@ -135,6 +163,7 @@ class MeshArrays(NamedTuple):
     names: tuple[str, ...] = ()
     labels: Ints | None = None
     uv: Any = None
+    groups: Ints | None = None
     tangents: Any = None
 
 
@@ -146,7 +175,7 @@ def checked(given: MeshArrays) -> TriangleMesh:
 
     Raises ValueError, which says what is wrong with which row.
     """
-    vertices, faces, normals, colors, names, labels, uv, tangents = given
+    vertices, faces, normals, colors, names, labels, uv, groups, tangents = given
     points = _table(vertices, "vertices", np.float64)
     triangles = _table(faces, "faces", np.int64)
     turned = None if normals is None else _table(normals, "normals", np.float64)
@@ -170,8 +199,9 @@ def checked(given: MeshArrays) -> TriangleMesh:
     all_rows = turned, dyes, sets, along
     turned, dyes, sets, along = (None if rows is None else rows[used] for rows in all_rows)
     labels = None if labels is None else labels[whole]
+    groups = None if groups is None else groups[whole]
     own = points[used], rank[kept], turned, dyes
-    return TriangleMesh(*own, names, labels, sets, along, int(again.sum()))
+    return TriangleMesh(*own, names, labels, sets, groups, along, int(again.sum()))
 
 
 def of_file(given: MeshArrays, left_out: Sequence[str] = ()) -> TriangleMesh:

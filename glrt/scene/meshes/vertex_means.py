@@ -27,8 +27,8 @@ def mean_normals(vertices: Floats, faces: Ints, place: Ints) -> Floats:
     """
     mean = np.zeros((len(place), 3))
     for some in _portions(faces):
-        along, angle = _corners(vertices[some])
-        facing = _unit(np.cross(along[:, 0], along[:, 1]))
+        along, angle = corner_angles(vertices[some])
+        facing = unit_vectors(np.cross(along[:, 0], along[:, 1]))
         mean += _sums(place[some], angle[:, :, None] * facing[:, None], len(place))
     return mean[place]
 
@@ -45,13 +45,15 @@ def mean_tangents(vertices: Floats, faces: Ints, normals: Floats, uv: Floats) ->
     sums = {sign: np.zeros_like(vertices) for sign in (1.0, -1.0)}
     for some in _portions(faces):
         corners, at = vertices[some], uv[some]
-        _, angle = _corners(corners)
+        _, angle = corner_angles(corners)
         one, other = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
         u, v = np.moveaxis(at[:, 1:] - at[:, :1], 2, 0)  # (n, 2) each, along both edges
         turn = np.sign(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])
         grows = turn[:, None] * (one * v[:, 1:] - other * v[:, :1])
         normal = normals[some]
-        flat = _unit(grows[:, None] - (grows[:, None] * normal).sum(axis=2, keepdims=True) * normal)
+        flat = unit_vectors(
+            grows[:, None] - (grows[:, None] * normal).sum(axis=2, keepdims=True) * normal
+        )
         weighted = angle[:, :, None] * flat
         for sign, total in sums.items():
             those = turn == sign
@@ -59,21 +61,21 @@ def mean_tangents(vertices: Floats, faces: Ints, normals: Floats, uv: Floats) ->
     is_mixed = np.all([total.any(axis=1) for total in sums.values()], axis=0)
     total = sums[1.0] + sums[-1.0]
     total[is_mixed] = 0
-    return _unit(total)[alike]
+    return unit_vectors(total)[alike]
 
 
 def _portions(faces: Ints) -> Iterator[Ints]:
     return (faces[first : first + PORTION] for first in range(0, len(faces), PORTION))
 
 
-def _corners(corners: Floats) -> tuple[Floats, Floats]:
+def corner_angles(corners: Floats) -> tuple[Floats, Floats]:
     """Return unit vectors along edges, (n, 3, 3), and angles, (n, 3), of triangles, (n, 3, 3)."""
-    along = _unit(np.roll(corners, -1, axis=1) - corners)
+    along = unit_vectors(np.roll(corners, -1, axis=1) - corners)
     cosine = -(along * np.roll(along, 1, axis=1)).sum(axis=2)
     return along, np.arccos(np.clip(cosine, -1, 1))
 
 
-def _unit(vectors: Floats) -> Floats:
+def unit_vectors(vectors: Floats) -> Floats:
     """Return vectors of length 1, or zero where there is no length."""
     length = np.linalg.norm(vectors, axis=-1, keepdims=True)
     unit: Floats = np.divide(vectors, length, out=np.zeros_like(vectors), where=length > 0)

@@ -46,8 +46,8 @@ def libraries(content: bytes) -> list[str]:
 def read_obj(content: bytes) -> tuple[MeshArrays, tuple[str, ...]]:
     """Return the mesh of an OBJ file, and what is left out of it, in words.
 
-    Corners share a vertex if their place, texture coordinates, normal and smoothing group are the
-    same. ValueError names a line that cannot be read.
+    Corners share a vertex if their place, texture coordinates and normal are the same. ValueError
+    names a line that cannot be read.
     """
     lines = _statements(content)
     empty = _Lines()
@@ -65,7 +65,7 @@ def read_obj(content: bytes) -> tuple[MeshArrays, tuple[str, ...]]:
     names, labels = _materials(lines.get("usemtl", empty), faces.places)
     groups = _groups(lines.get("s"), faces.places)
     triangles, owner = triangulated(table["v"][:, :3], corners[:, 0], counts)
-    keys, place = _unique(np.column_stack([corners, np.repeat(groups, counts)]))
+    keys, place = _unique(corners)
     arrays = MeshArrays(
         table["v"][keys[:, 0], :3],
         place[triangles],
@@ -74,6 +74,7 @@ def read_obj(content: bytes) -> tuple[MeshArrays, tuple[str, ...]]:
         names,
         None if labels is None else labels[owner],
         _coordinates(table["vt"], keys[:, 1]),
+        groups[owner],
     )
     curves = sum(len(lines[word].texts) for word in _OF_CURVES if word in lines)
     unread += [counted(curves, "line") + " of curves and surfaces"] if curves else []

@@ -28,7 +28,8 @@ def read_stl(content: bytes) -> MeshArrays:
     if corners is None:
         corners = _text(content)
     points = corners.reshape(-1, 3).astype(np.float64)
-    return MeshArrays(points, places(points).reshape(-1, 3))
+    faces = places(points).reshape(-1, 3)
+    return MeshArrays(points, faces, groups=np.zeros(len(faces), np.int64))
 
 
 def _binary(content: bytes) -> np.ndarray[Any, Any] | None:

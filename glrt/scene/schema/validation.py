@@ -256,7 +256,8 @@ def _unknown_key(_place: Place, detail: ErrorDetails) -> str:
 
 def _unknown_choice(place: Place, detail: ErrorDetails) -> str:
     key, context, value = str(place[-1]), detail["ctx"], detail["input"]
-    choices = re.findall(r"'([^']*)'", context.get("expected_tags") or context["expected"])
+    expected = context.get("expected_tags") or context["expected"]
+    choices = [a or b.lower() for a, b in re.findall(r"'([^']*)'|\b(True|False)\b", expected)]
     word = value[key] if detail["type"] == "union_tag_invalid" else value
     if not isinstance(word, str):
         return f"must be one of: {', '.join(choices)}, got {_shown(word)}"

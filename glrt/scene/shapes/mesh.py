@@ -15,6 +15,7 @@ from glrt.scene.shapes.faces import Faces, box_faces, faces_of_triangles, welded
 from glrt.scene.values import LARGEST, SMALLEST, Coordinate, Name, Number, Triple, Vector
 from glrt.settings import Cost, Editable
 
+Smooth = Literal[True, False, "auto"]
 MOST_OUTLINED = 200_000  # triangles whose edges may make an outline
 
 
@@ -93,10 +94,17 @@ class Mesh(Sided):
         description="four rows of four numbers, by which points of the file are multiplied, as "
         "columns, before they are scaled; default: they stay as they are",
     )
-    smooth: Annotated[bool, Editable(Cost.RECOMPILE)] = Field(
+    smooth: Annotated[Smooth, Editable(Cost.RECOMPILE)] = Field(
         True,
-        description="whether normals are interpolated across triangles, those of the file or, "
-        "where it has none, means at each vertex; false: flat facets",
+        description="whether normals are interpolated, those of the file or, where it has none, "
+        "means at each vertex; false: flat facets; auto: as the format means it, flat for STL, by "
+        "smoothing groups for OBJ, and with edges sharp by crease for PLY",
+    )
+    crease: Annotated[float, Editable(Cost.RESTART, "degrees", (0, 180))] = Field(
+        40.0,
+        ge=0,
+        le=180,
+        description="angle between triangles from which an edge is sharp, with smooth = auto",
     )
 
     has_inside = True
@@ -119,7 +127,8 @@ class Mesh(Sided):
             rotate: Triple = (0, 0, 0),
             scale: Number | Triple = 1,
             matrix: Sequence[Sequence[Number]] | Array | None = None,
-            smooth: bool = True,
+            smooth: Smooth = True,
+            crease: Number = 40.0,
             material: str = "",
             part: str | None = None,
             name: str | None = None,
@@ -151,9 +160,14 @@ class Mesh(Sided):
     @property
     def triangles_of_file(self) -> TriangleMesh:
         """Triangles of all parts; ValueError before the file is read."""
-        if self.file.triangles is None:
+        if (whole := self.file.triangles) is None:
             raise ValueError(f"the file {self.file.file} was not read")
-        return self.file.triangles
+        return whole.creased(self.crease) if self.smooth == "auto" else whole
+
+    @property
+    def form(self) -> tuple[str | None, str | None, float | None]:
+        """The triangles by name: meshes of one form share them, wherever they stand."""
+        return self.file.sha256, self.part, self.crease if self.smooth == "auto" else None
 
     @property
     def linear(self) -> Array:

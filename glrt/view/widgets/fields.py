@@ -152,8 +152,10 @@ def _draw(control: Control, label: str, value: Any) -> tuple[bool, Any]:
     if control.kind == "choice":
         if control.told:
             return _choice_text(control, label, value)
-        names = list(control.choices)
-        changed, index = imgui.combo(label, names.index(value), names, min(len(names), _MOST_ROWS))
+        words = map(str, control.choices)
+        names = [word.lower() if word in ("True", "False") else word for word in words]
+        chosen = control.choices.index(value)
+        changed, index = imgui.combo(label, chosen, names, min(len(names), _MOST_ROWS))
         return changed, control.choices[index]
     if control.kind == "color":
         return _color(control, label, value)

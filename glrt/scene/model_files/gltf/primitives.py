@@ -99,6 +99,7 @@ def mesh_of(document: Document) -> TriangleMesh:
             tuple(used),
             np.concatenate(labels),
             _joined([part.uv for part in parts], counts, 4, 0.0),
+            None,
             _joined([part.tangents for part in parts], counts, 3, 0.0),
         )
     )
