@@ -169,9 +169,16 @@ def test_stars_keep_their_area_and_their_edges(radii: list[float]) -> None:
     assert {(k, (k + 1) % len(points)) for k in range(len(points))} <= edges
 
 
-def test_a_corner_on_an_edge_of_a_concave_polygon_is_kept() -> None:
-    """Its neighbour has this corner: without it the solid would be open."""
-    points: list[list[float]] = [[0, 0], [1, 0], [2, 0], [2, 2], [1, 0.5], [0, 2]]
+@pytest.mark.parametrize(
+    "points",
+    [
+        [[0, 0], [1, 0], [2, 0], [2, 2], [1, 0.5], [0, 2]],  # a corner on an edge
+        [[1, 1], [-1, 1], [-2, -1], [-3, -1], [0, -1]],  # a spike without area
+    ],
+)
+def test_corners_without_an_angle_are_kept(points: list[list[float]]) -> None:
+    """Their neighbours have these corners: without them the solid would be open."""
+    assert area(polygon(points)) == shoelace(points)
     outline = np.array([[x, y, 0.0] for x, y in points])
     count = len(points)
     sides = [[k, (k + 1) % count, (k + 1) % count + count, k + count] for k in range(count)]

@@ -17,7 +17,7 @@ _PAIRS = 1 << 22  # pairs of corners that are compared at once, so that memory i
 
 
 class Split(NamedTuple):
-    """Vertices with a normal each, of which a given vertex may make several."""
+    """Vertices with a normal each; one given vertex may become several."""
 
     vertex: Ints  # (w,): numbers of the given vertices
     normals: Floats  # (w, 3), of any length

@@ -54,15 +54,16 @@ def _normals(polygons: Floats) -> Floats:
 
 
 def _convex(polygons: Floats) -> NDArray[np.bool_]:
-    """Return whether no corner of polygons, (n, k, 3), points inwards, (n,)."""
+    """Return whether no corner of polygons, (n, k, 3), points inwards or turns back, (n,)."""
     ahead = np.roll(polygons, -1, axis=1) - polygons
     behind = np.roll(ahead, 1, axis=1)
     normals = _normals(polygons)
     turns = (np.cross(behind, ahead) * normals[:, None]).sum(axis=2)
     sizes = np.linalg.norm(ahead, axis=2) * np.linalg.norm(behind, axis=2)
     limit = _ROUNDING * sizes * np.linalg.norm(normals, axis=1)[:, None]
-    inwards: NDArray[np.bool_] = (turns < -limit).any(axis=1)
-    return ~inwards
+    turns_back = (np.abs(turns) <= limit) & ((ahead * behind).sum(axis=2) < 0)
+    wrong: NDArray[np.bool_] = ((turns < -limit) | turns_back).any(axis=1)
+    return ~wrong
 
 
 def _clipped(polygon: Floats) -> Ints:
@@ -83,7 +84,7 @@ def _clipped(polygon: Floats) -> Ints:
 
 
 def _on_edges(triangles: Ints, count: int) -> Ints:
-    """Return flat triangles for corners that a triangulation left out: they lie on its edges.
+    """Return flat triangles for corners that a triangulation left out, as the tips of spikes.
 
     With them the mesh stays closed where a neighbour has these corners.
     """
