@@ -17,6 +17,7 @@ from glrt.scene.model_files.text_lines import lines_of, number_rows, whole_numbe
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
+_LARGEST = 1 << 32  # number of a vertex
 _LEAST_CORNERS = 3  # of a face
 _COLORED = 6  # numbers of a vertex with a color
 _CODES = 255.0  # the largest color where a file has whole numbers
@@ -55,15 +56,14 @@ def read_obj(content: bytes) -> tuple[MeshArrays, tuple[str, ...]]:
         kind: number_rows(*_rows_of(lines.get(kind, empty)), least)
         for kind, least in zip(_KINDS, (3, 1, 3), strict=True)
     }
-    faces, unread = _faces_of(lines.get("f", empty))
-    if not len(faces.texts):
+    words, faces, unread = _faces_of(lines.get("f", empty))
+    if not words:
         raise ValueError("it has no faces")
-    words = [text.split() for text in faces.texts]
     counts = np.fromiter(map(len, words), np.int64, len(words))
-    corners, missing = _corners(faces, list(chain.from_iterable(words)), counts, lines, table)
+    corners, missing = _corners(words, faces, lines, table)
     unread += missing
-    names, labels = _materials(lines.get("usemtl", empty), faces.places)
-    groups = _groups(lines.get("s"), faces.places)
+    names, labels = _materials(lines.get("usemtl", empty), faces)
+    groups = _groups(lines.get("s"), faces)
     triangles, owner = triangulated(table["v"][:, :3], corners[:, 0], counts)
     keys, place = _unique(corners)
     arrays = MeshArrays(
@@ -107,27 +107,23 @@ def _rows_of(lines: _Lines) -> tuple[Sequence[str], Sequence[int]]:
 
 
 def _uncommented(text: str) -> str:
-    return text.partition("#")[0] if "#" in text else text
+    return text.partition("#")[0].rstrip() if "#" in text else text
 
 
-def _faces_of(lines: _Lines) -> tuple[_Lines, list[str]]:
-    """Return the faces with three corners at least, and what is left out."""
-    texts = [_uncommented(text) for text in lines.texts]
-    blanks = [text.count(" ") for text in texts]
-    if not texts or (min(blanks) >= _LEAST_CORNERS - 1 and not any("  " in text for text in texts)):
-        return _Lines(texts, lines.places), []
-    kept = [k for k, text in enumerate(texts) if len(text.split()) >= _LEAST_CORNERS]
-    if len(kept) == len(texts):
-        return _Lines(texts, lines.places), []
-    left = counted(len(texts) - len(kept), "face")
-    faces = _Lines([texts[k] for k in kept], [lines.places[k] for k in kept])
-    return faces, [f"{left} of fewer than three corners"]
+def _faces_of(lines: _Lines) -> tuple[list[list[str]], list[int], list[str]]:
+    """Return the words of faces with three corners at least, their lines, and what is left out."""
+    words = [_uncommented(text).split() for text in lines.texts]
+    kept = [number for number, face in enumerate(words) if len(face) >= _LEAST_CORNERS]
+    if len(kept) == len(words):
+        return words, lines.places, []
+    left = counted(len(words) - len(kept), "face")
+    unread = [f"{left} of fewer than three corners"]
+    return [words[k] for k in kept], [lines.places[k] for k in kept], unread
 
 
 def _corners(
-    faces: _Lines,
-    words: list[str],
-    counts: Ints,
+    words: list[list[str]],
+    faces: Sequence[int],
     lines: dict[str, _Lines],
     table: dict[str, Floats],
 ) -> tuple[Ints, list[str]]:
@@ -135,37 +131,38 @@ def _corners(
 
     And what is left out: numbers of coordinates and normals that the file lacks.
     """
-    of_line = np.repeat(np.arange(len(counts)), counts)
-    given = _indices(words, faces, of_line)
+    of_line = np.repeat(faces, [len(face) for face in words])
+    given = _indices(list(chain.from_iterable(words)), of_line)
     found = np.full(given.shape, -1)
     unread = list[str]()
     for column, kind in enumerate(_KINDS):
         index = given[:, column]
         places = lines[kind].places if kind in lines else []
-        before = np.searchsorted(places, faces.places)[of_line]
+        before = np.searchsorted(places, of_line)
         number = np.where(index > 0, index - 1, np.where(index < 0, before + index, -1))
         wrong = (number >= len(table[kind])) | (number < 0) & (index != 0)
         if kind == "v":
             wrong |= index == 0
-            _check_vertices(wrong, index, faces, of_line, len(table[kind]))
+            _check_vertices(wrong, index, of_line, len(table[kind]))
         elif wrong.any():
             unread.append(f"{_ROWS[kind]} of {counted(int(wrong.sum()), 'corner')}")
         found[:, column] = np.where(wrong, -1, number)
     return found, unread
 
 
-def _check_vertices(
-    wrong: NDArray[np.bool_], index: Ints, faces: _Lines, of_line: Ints, count: int
-) -> None:
+def _check_vertices(wrong: NDArray[np.bool_], index: Ints, of_line: Ints, count: int) -> None:
     if wrong.any():
         corner = int(wrong.argmax())
-        line = faces.places[of_line[corner]] + 1
+        line = of_line[corner] + 1
         has = counted(count, "vertex")
         raise ValueError(f"line {line} names vertex {index[corner]}, and the file has {has}")
 
 
-def _indices(words: list[str], faces: _Lines, of_line: Ints) -> Ints:
-    """Return the numbers in words such as 1, 1/2, 1//3 and 1/2/3, (c, 3), 0 for none."""
+def _indices(words: list[str], of_line: Ints) -> Ints:
+    """Return the numbers in words such as 1, 1/2, 1//3 and 1/2/3, (c, 3), 0 for none.
+
+    `of_line` are the lines of the words, from 0, (c,).
+    """
     slashes = np.fromiter(map(str.count, words, repeat("/")), np.int64, len(words))
     doubles = np.fromiter(map(str.count, words, repeat("//")), np.int64, len(words))
     found = np.zeros((len(words), len(_KINDS)), np.int64)
@@ -179,7 +176,7 @@ def _indices(words: list[str], faces: _Lines, of_line: Ints) -> Ints:
             found[rows[:, None], columns] = numbers.reshape(len(rows), len(columns))
         except ValueError:
             for row in rows:
-                found[row] = _index(words[row], faces.places[of_line[row]])
+                found[row] = _index(words[row], int(of_line[row]))
     return found
 
 
@@ -189,7 +186,7 @@ def _index(word: str, place: int) -> list[int]:
         numbers = [int(part) if part else 0 for part in parts]
     except ValueError:
         numbers = []
-    if not 1 <= len(numbers) <= len(_KINDS):
+    if not 1 <= len(numbers) <= len(_KINDS) or max(map(abs, numbers)) > _LARGEST:
         raise ValueError(f"line {place + 1} has a corner that is not numbers: {quoted(word)}")
     return [*numbers, 0, 0][: len(_KINDS)]
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glrt.core.text import quoted
-from glrt.scene.model_files.text_lines import text_of
+from glrt.scene.model_files.text_lines import parsed, text_of
 
 Ints = NDArray[np.int64]
 
@@ -33,6 +33,7 @@ _TYPES = {
 _FORMATS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 _LONGEST_HEADER = 1 << 16  # bytes
 _MOST = 1 << 31  # of an element
+_SHOWN = 40  # letters of a word in a message
 
 
 class Ragged(NamedTuple):
@@ -133,6 +134,11 @@ class _Binary:
 
     def columns(self, element: Element) -> Columns:
         """Return the columns of the next element."""
+        least = sum(int((c.count or c.kind)[1]) for c in element.properties)
+        if element.count * least > len(self._content) - self._at:
+            raise _cut_off(element)
+        if not element.properties:
+            return {}
         if element.is_fixed:
             rows = self._rows(self._dtype(element), element)
             return {column.name: rows[column.name] for column in element.properties}
@@ -251,10 +257,12 @@ class _Text:
     """Reads elements from words, one after another."""
 
     def __init__(self, content: bytes) -> None:
-        try:
-            self._values = np.array(text_of(content).split(), dtype=np.float64)
-        except ValueError as error:
-            raise ValueError(f"its rows have other words than numbers: {error}") from None
+        text = text_of(content)
+        values = parsed(text, np.float64)
+        if values is None:
+            wrong = next((w for w in text.split() if parsed(w, np.float64) is None), "")
+            raise ValueError(f"its rows have other words than numbers: {quoted(wrong[:_SHOWN])}")
+        self._values = values
         self._at = 0
 
     def columns(self, element: Element) -> Columns:
@@ -267,7 +275,7 @@ class _Text:
         counts: list[list[int]] = [[] for _ in element.properties]
         for _ in range(element.count):
             for k, column in enumerate(element.properties):
-                length = int(self._taken(1, element)[0]) if column.count else 1
+                length = self._length(element) if column.count else 1
                 values[k].append(self._taken(length, element))
                 counts[k].append(length)
         found: Columns = {}
@@ -275,6 +283,12 @@ class _Text:
             joined = _as_kind(np.concatenate([np.zeros(0), *values[k]]), column)
             found[column.name] = Ragged(joined, np.array(counts[k])) if column.count else joined
         return found
+
+    def _length(self, element: Element) -> int:
+        length = float(self._taken(1, element)[0])
+        if not 0 <= length <= len(self._values):
+            raise ValueError(f"a list of {element.name} has {length:g} numbers")
+        return int(length)
 
     def _taken(self, count: int, element: Element) -> NDArray[np.float64]:
         if count < 0 or self._at + count > len(self._values):

@@ -61,17 +61,17 @@ def whole_numbers(texts: Sequence[str], places: Sequence[int]) -> Ints:
 
 
 def _numbers(texts: Sequence[str], places: Sequence[int], kind: type) -> NDArray[Any]:
-    found = _parsed(" ".join(texts), kind)
+    found = parsed(" ".join(texts), kind)
     if found is not None:
         return found
     for text, place in zip(texts, places, strict=True):
-        if _parsed(text, kind) is None:
+        if parsed(text, kind) is None:
             wanted = "whole numbers" if kind is np.int64 else "numbers"
             raise _bad_line(text, place, f"other words than {wanted}")
     raise ValueError("its numbers cannot be read")
 
 
-def _parsed(text: str, kind: type) -> NDArray[Any] | None:
+def parsed(text: str, kind: type) -> NDArray[Any] | None:
     """Return the numbers in a text; None if there is another word in it."""
     try:
         with warnings.catch_warnings():
