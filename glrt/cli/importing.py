@@ -15,7 +15,8 @@ from glrt.settings import settings_for
 DESCRIPTION = "Write the scene of a model (.glb, .gltf, .obj, .ply or .stl) as a scene file."
 EPILOG = (
     "The scene has a mesh for each material of the model, its camera and lights or usual ones, and "
-    "renders to the same picture as the model. In another folder it gets a copy of the model. "
+    "renders to the same picture as the model. If the model is animated, the scene plays its first "
+    "animation that moves. In another folder the scene gets a copy of the model. "
     "Exit codes: 0 done, 2 wrong usage or no such model."
 )
 

@@ -4,6 +4,7 @@ Modules, each importing only what stands above it:
 
 - values: numbers, vectors and colours with their ranges
 - camera: the camera
+- animation: values that change from frame to frame
 - meshes: triangle meshes as arrays
 - files: files that a scene names by their path
 - images: image files as arrays
@@ -12,7 +13,6 @@ Modules, each importing only what stands above it:
 - materials: materials, one file for each type
 - model_files: files of models: glTF, OBJ, PLY and STL
 - probes: grid of probes
-- animation: values that change from frame to frame
 - schema: fields of a scene, and their checks
 - frames: a scene with other values in it
 - instancing: meshes that share a BVH

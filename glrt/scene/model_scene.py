@@ -14,7 +14,7 @@ from glrt.scene.files.path_text import text_of
 from glrt.scene.loading.file_contents import Beside, with_content
 from glrt.scene.loading.scene_files import with_files
 from glrt.scene.materials.lambertian import Lambertian
-from glrt.scene.meshes.triangle_meshes import TriangleMesh
+from glrt.scene.meshes.triangle_meshes import Poses, TriangleMesh
 from glrt.scene.model_files.gltf.cameras_lights import camera_of, left_out, lights_of
 from glrt.scene.model_files.gltf.document import Document
 from glrt.scene.model_files.mesh_formats import FORMATS, GLTF
@@ -27,6 +27,7 @@ Table = dict[str, Any]
 FOV = 35.0  # degrees
 _FROM = np.array([0.65, 0.45, 1.0])  # from the model to the camera: three quarters, above
 _EDGE = 512  # longer edge of the picture, pixels
+MODEL = "model"  # name of the object, which a track of an animation needs
 CLAY = (0.6, 0.58, 0.55)  # color of surfaces without a material
 
 
@@ -53,6 +54,8 @@ def model_scene(path: Path, folder: AssetFolder, source: str) -> Scene:
         "objects": [{"shape": "mesh", "file": file, "material": "", "smooth": "auto"}],
         **_view(file.triangles),
     }
+    if poses := file.triangles.poses:
+        _animate(tables, poses)
     has_lights = False
     if path.suffix.lower() in GLTF:
         has_lights = _add_stage(tables, asset, reader, file.triangles, source)
@@ -61,6 +64,16 @@ def model_scene(path: Path, folder: AssetFolder, source: str) -> Scene:
         tables["objects"][0]["material"] = "clay"
     scene = with_files(validated(Scene, tables, source), folder, source, Lambertian(color=CLAY))
     return scene if has_lights or lights_itself(scene) else with_studio(scene, source)
+
+
+def _animate(tables: Table, poses: Poses) -> None:
+    """Add a track that plays the usual animation of a file, if it moves."""
+    seconds = poses.seconds(poses.usual)
+    if seconds > 0:
+        tables["objects"][0]["name"] = MODEL
+        moments = (0.0, seconds)
+        track = {"target": f"objects.{MODEL}.time", "times": moments, "values": moments}
+        tables["animation"] = {"tracks": (track,)}
 
 
 def _add_stage(

@@ -88,7 +88,7 @@ class Film:
                 Cell(c, frame.label.split(", "))
                 for c, frame in zip(codes, self.frames, strict=True)
             ]
-            write_sheet(output.path, cells, self.series.columns, self.recipe)
+            write_sheet(output.path, cells, self.series.columns(len(cells)), self.recipe)
         if not keeps_frames:
             rmtree(output.folder, ignore_errors=True)
 

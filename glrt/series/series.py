@@ -60,12 +60,11 @@ class Series:
         """The number of frames."""
         return len(self.steps) or self.turns or self.scene.frames
 
-    @property
-    def columns(self) -> int:
-        """Columns of a contact sheet: steps of the second of two sweeps, else a near square."""
+    def columns(self, count: int) -> int:
+        """Return columns of a sheet: steps of the second of two sweeps, else a near square."""
         if len(self.sweeps) > 1:
-            return self.sweeps[-1].steps
-        return math.ceil(math.sqrt(self.count))
+            return min(self.sweeps[-1].steps, count)
+        return math.ceil(math.sqrt(count))
 
     def check(self) -> None:
         """Raise the errors of `still` for the steps of sweeps; animations check their keys."""

@@ -40,7 +40,7 @@ def size_of(width: int, height: int, count: int, columns: int, lines: int = 1) -
 def check_sheet(series: Series, count: int) -> None:
     """Raise `UsageError` for a sheet of more than MOST_PIXELS."""
     lines = max(1, len(series.sweeps))
-    width, height = size_of(*series.settings.size, count, min(series.columns, count), lines)
+    width, height = size_of(*series.settings.size, count, series.columns(count), lines)
     if width * height > MOST_PIXELS:
         raise UsageError(
             f"A sheet of {count} frames has {width:,} x {height:,} pixels, more than "
@@ -58,7 +58,7 @@ def write_sheet(path: Path, cells: Sequence[Cell], columns: int, text: str) -> N
     metadata = PngInfo()
     metadata.add(b"sRGB", b"\x00")
     metadata.add_itxt(KEY, text)
-    picture = sheet_of(cells, min(columns, len(cells)))
+    picture = sheet_of(cells, columns)
     write_whole(path, lambda file: picture.save(file, "PNG", pnginfo=metadata))
 
 

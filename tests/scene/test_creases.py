@@ -10,7 +10,8 @@ from numpy.testing import assert_allclose
 import glrt
 from glrt.scene.files.named_meshes import mesh_of_arrays
 from glrt.scene.meshes import creases
-from glrt.scene.meshes.triangle_meshes import MeshArrays, TriangleMesh, checked
+from glrt.scene.meshes.checked_meshes import MeshArrays, checked
+from glrt.scene.meshes.triangle_meshes import TriangleMesh
 from glrt.scene.model_files.mesh_formats import decode_mesh
 from tests.support.meshes import box, icosphere
 

@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 
 import glrt
 from glrt.scene.files.named_meshes import mesh_of_arrays
-from glrt.scene.meshes.triangle_meshes import MeshArrays, checked
+from glrt.scene.meshes.checked_meshes import MeshArrays, checked
 from glrt.scene.model_files.mesh_formats import decode_mesh
 
 POINTS = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])

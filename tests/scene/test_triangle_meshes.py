@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 import glrt
 from glrt.core.errors import SceneError
 from glrt.core.text import counted
-from glrt.scene.meshes.triangle_meshes import MeshArrays, checked
+from glrt.scene.meshes.checked_meshes import MeshArrays, checked
 from tests.support.meshes import blob, box, icosphere
 
 POINTS = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])

@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from glrt.scene.meshes.checked_meshes import MeshArrays, checked
 from glrt.scene.meshes.repeated_triangles import _keys, repeated
-from glrt.scene.meshes.triangle_meshes import MeshArrays, checked
 from glrt.scene.twins import Twin, twins
 from glrt.scene.warnings import cautions
 from glrt.settings import settings_for

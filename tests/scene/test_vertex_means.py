@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.testing import assert_allclose
 
-from glrt.scene.meshes.triangle_meshes import MeshArrays, checked
+from glrt.scene.meshes.checked_meshes import MeshArrays, checked
 from glrt.scene.meshes.vertex_means import mean_tangents
 from tests.support.meshes import Array, Faces
 

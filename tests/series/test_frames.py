@@ -101,7 +101,7 @@ def test_sweeps_are_exact_at_their_ends_and_fill_rows() -> None:
         parse_sweep("render.bounces=1:4:4"),
     )
     series = Series(load("cornell"), SMALL, sweeps=(rows, columns))
-    assert (series.count, series.columns) == (12, 4)
+    assert (series.count, series.columns(12)) == (12, 4)
     first, fifth, last = (series.still(number) for number in (0, 4, 11))
     assert first.scene.materials["white"].model_dump()["color"] == (0.1, 0.2, 0.3)
     assert fifth.scene.materials["white"].model_dump()["color"] == pytest.approx((0.4, 0.4, 0.4))
@@ -148,4 +148,4 @@ def test_frames_are_chosen_from_those_there_are() -> None:
     assert chosen(9, (2, 4)) == range(2, 5)
     with pytest.raises(UsageError, match=r"--frames 2-9: the series has frames 0 to 8"):
         chosen(9, (2, 9))
-    assert Series(load("cornell"), SMALL, turns=7).columns == 3
+    assert Series(load("cornell"), SMALL, turns=7).columns(7) == 3

@@ -11,7 +11,7 @@ from glrt.scene import instancing
 from glrt.scene.files.named_meshes import MeshFile
 from glrt.scene.materials.principled import Principled
 from glrt.scene.materials.textures import Texture
-from glrt.scene.meshes.triangle_meshes import MeshArrays, checked
+from glrt.scene.meshes.checked_meshes import MeshArrays, checked
 from glrt.scene.scene import Scene
 from tests.conftest import CallGlsl
 from tests.support.builders import disk, plane, quad, scene_of, sphere

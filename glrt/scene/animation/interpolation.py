@@ -15,12 +15,16 @@ QUATERNION = 4  # numbers of a value that is a rotation
 
 
 def between(
-    times: Sequence[float], values: Array, moment: float, interpolation: Interpolation
+    times: Sequence[float],
+    values: Array,
+    moment: float,
+    interpolation: Interpolation,
+    is_rotation: bool = False,
 ) -> Array:
     """Return the value at a moment, (k,), from n keys at increasing times, (n, k).
 
-    Before the first key and after the last their values hold. Rows of four numbers are rotations:
-    linear then follows the arc, and the result has length 1.
+    Before the first key and after the last their values hold. Rotations are quaternions: linear
+    then follows the arc, and the result has length 1.
     """
     last = len(times) - 1
     key = int(np.searchsorted(times, moment, side="right")) - 1
@@ -29,7 +33,6 @@ def between(
         return held
     span = times[key + 1] - times[key]
     share = (moment - times[key]) / span
-    is_rotation = values.shape[1] == QUATERNION
     if interpolation == "linear":
         if is_rotation:
             return slerp(values[key], values[key + 1], share)

@@ -120,7 +120,8 @@ class Track(Value):
 
     def at(self, moment: float) -> float | tuple[float, ...]:
         """Return the value at a moment in seconds, as a scene file gives it."""
-        value = between(self.times, self._rows, moment, self.interpolation)
+        rows = self._rows
+        value = between(self.times, rows, moment, self.interpolation, self._is_rotation(rows[0]))
         return self._plain(value)
 
     @property
@@ -132,8 +133,11 @@ class Track(Value):
     def _rows(self) -> NDArray[np.float64]:
         return np.array([np.atleast_1d(value) for value in self.values], np.float64)
 
+    def _is_rotation(self, row: NDArray[np.float64]) -> bool:
+        return self.keys[-1] == ROTATION and len(row) == QUATERNION
+
     def _plain(self, row: NDArray[np.float64]) -> float | tuple[float, ...]:
-        if self.keys[-1] == ROTATION and len(row) == QUATERNION:
+        if self._is_rotation(row):
             row = angles(row)
         numbers = tuple(float(number) for number in row)
         return numbers if isinstance(self.values[0], tuple) else numbers[0]

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from pydantic import BeforeValidator, PlainSerializer, PrivateAttr, WithJsonSchema
 
 from glrt.scene.files.named_files import PATH_SCHEMA, NamedFile, by_path, to_path
-from glrt.scene.meshes.triangle_meshes import MeshArrays, TriangleMesh, checked
+from glrt.scene.meshes.checked_meshes import MeshArrays, checked
+from glrt.scene.meshes.triangle_meshes import TriangleMesh
 
 
 class MeshFile(NamedFile):

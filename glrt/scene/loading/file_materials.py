@@ -113,8 +113,8 @@ def of_gltf(shape: Mesh, reader: AssetReader, where: str) -> Found:
     except ValueError as error:
         raise SceneError(f"{where}: {shape.file.file}: {error}.") from None
     unread += document.unknown_extensions
-    if document.items("animations"):
-        unread.append("animations")
+    if document.items("animations") and shape.time is None:
+        unread.append("animations, which glrt film shows")
     return shape.file.with_libraries({}, tuple(unread)), own
 
 

@@ -13,7 +13,7 @@ from glrt.scene.materials.kinds import Material
 from glrt.scene.meshes.triangle_meshes import NO_MATERIAL
 from glrt.scene.model_files.mesh_formats import GLTF
 from glrt.scene.schema.fields import MAX_OBJECTS, SceneFields
-from glrt.scene.schema.validation import validated
+from glrt.scene.schema.validation import sentence, validated
 from glrt.scene.shapes.mesh import Mesh
 
 SceneType = TypeVar("SceneType", bound=SceneFields)
@@ -90,7 +90,11 @@ def _is_gltf(shape: Mesh) -> bool:
 
 def _names(shape: Mesh, where: str, may_lack: bool) -> list[str]:
     """Return the materials of a mesh's file; if `may_lack`, some triangles may have none."""
-    file, mesh = shape.file.file, shape.triangles_of_file
+    file = shape.file.file
+    try:
+        mesh = shape.triangles_of_file
+    except ValueError as error:
+        raise SceneError(sentence(f"{where}: {file}: {error}")) from None
     if PurePosixPath(file).suffix.lower() not in (".obj", *GLTF):
         raise SceneError(
             f"{where}: {file} has no materials of its own, as OBJ and glTF files have: {REMEDY}."
@@ -112,7 +116,11 @@ def _names(shape: Mesh, where: str, may_lack: bool) -> list[str]:
 
 
 def part_problem(shape: Mesh) -> str:
-    """Return what is wrong with the part that an object is of; empty if nothing is."""
+    """Return what is wrong with an object's part, or its moment; empty if nothing is."""
+    try:
+        shape.triangles_of_file  # noqa: B018 (raises ValueError for a moment that the file lacks)
+    except ValueError as error:
+        return str(error)
     names = shape.triangles_of_file.parts if shape.part is not None else {}
     if shape.part is None or shape.part in names:
         return ""

@@ -2,11 +2,14 @@
 
 import warnings
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import PurePosixPath
 
 from glrt.core.errors import SceneError
 from glrt.core.text import quoted
-from glrt.scene.meshes.triangle_meshes import TriangleMesh, of_file
+from glrt.scene.meshes.checked_meshes import of_file
+from glrt.scene.meshes.triangle_meshes import TriangleMesh
+from glrt.scene.model_files.gltf.animations import Poses
 from glrt.scene.model_files.gltf.document import Document
 from glrt.scene.model_files.gltf.draco import NotInstalledError
 from glrt.scene.model_files.gltf.primitives import mesh_of
@@ -37,7 +40,7 @@ def decode_mesh(content: bytes, path: str, where: str, fetch: Fetch | None = Non
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of arithmetic with NaN, which is found below
             if suffix in GLTF:
-                return mesh_of(Document(content, fetch or _alone))
+                return _of_gltf(Document(content, fetch or _alone))
             return _READERS[suffix](content)
     except SceneError:
         raise  # of a file next to it
@@ -55,6 +58,11 @@ def decode_mesh(content: bytes, path: str, where: str, fetch: Fetch | None = Non
 
 def _alone(path: str) -> bytes:
     raise ValueError(f"it names {quoted(path)}, and only its own content is at hand")
+
+
+def _of_gltf(document: Document) -> TriangleMesh:
+    poses = Poses(document) if document.items("animations") else None
+    return replace(mesh_of(document), poses=poses)
 
 
 def _of_obj(content: bytes) -> TriangleMesh:

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from glrt.core.text import counted, quoted
 from glrt.scene.images.image_files import decode_srgb
-from glrt.scene.meshes.triangle_meshes import NO_MATERIAL, MeshArrays
+from glrt.scene.meshes.checked_meshes import MeshArrays
+from glrt.scene.meshes.triangle_meshes import NO_MATERIAL
 from glrt.scene.model_files.polygons import triangulated
 from glrt.scene.model_files.text_lines import lines_of, number_rows, whole_numbers
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from glrt.core.text import counted
-from glrt.scene.meshes.triangle_meshes import MeshArrays
+from glrt.scene.meshes.checked_meshes import MeshArrays
 from glrt.scene.meshes.vertex_means import places
 from glrt.scene.model_files.text_lines import number_rows, text_of
 

@@ -7,6 +7,7 @@ Modules, each importing only what stands above it:
 - texture_axes: axes of texture coordinates of flat shapes
 - base: base classes of shapes
 - box: boxes
+- mesh_values: factors and matrices of meshes
 - mesh: placed triangle meshes
 - cylinder: cylinders, with caps or open
 - flat_polygons: flat surfaces of objects as polygons

@@ -5,55 +5,19 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
-from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
+from pydantic import Field
 
 from glrt.scene.files.named_meshes import MeshFile, NamedMesh, mesh_of_arrays
 from glrt.scene.meshes.triangle_meshes import TriangleMesh
 from glrt.scene.shapes.base import Array, Sided, along_and_rest
 from glrt.scene.shapes.box import rotation
 from glrt.scene.shapes.faces import Faces, box_faces, faces_of_triangles, welded
-from glrt.scene.values import LARGEST, SMALLEST, Coordinate, Name, Number, Triple, Vector
+from glrt.scene.shapes.mesh_values import Factors, Matrix
+from glrt.scene.values import LARGEST, Name, Number, Triple, Vector
 from glrt.settings import Cost, Editable
 
 Smooth = Literal[True, False, "auto"]
 MOST_OUTLINED = 200_000  # triangles whose edges may make an outline
-
-
-def _three(value: Any) -> Any:
-    return (value, value, value) if isinstance(value, float | int) else value
-
-
-def _without_zeros(value: Vector) -> Vector:
-    if min(map(abs, value)) < SMALLEST:
-        raise ValueError(
-            f"must be numbers of at least {SMALLEST:g}, or below -{SMALLEST:g} to mirror: 0 makes "
-            "the mesh flat"
-        )
-    return value
-
-
-_NUMBER = {"type": "number", "minimum": -LARGEST, "maximum": LARGEST}
-_FACTORS = {"anyOf": [_NUMBER, {"type": "array", "items": _NUMBER, "minItems": 3, "maxItems": 3}]}
-Factors = Annotated[
-    Vector,
-    BeforeValidator(_three),
-    AfterValidator(_without_zeros),
-    WithJsonSchema(_FACTORS),
-]
-
-
-def _with_a_volume(rows: Any) -> Any:
-    if rows[3] != (0, 0, 0, 1):
-        raise ValueError("must end with the row 0, 0, 0, 1")
-    lengths = np.linalg.norm(np.array(rows)[:3, :3], axis=0)
-    if lengths.min() < SMALLEST or abs(np.linalg.det(np.array(rows)[:3, :3] / lengths)) < _FLATTEST:
-        raise ValueError("must not make the mesh flat: its columns lie in a plane")
-    return rows
-
-
-_FLATTEST = 1e-9  # volume between unit columns
-_Row = tuple[Coordinate, Coordinate, Coordinate, Coordinate]
-Matrix = Annotated[tuple[_Row, _Row, _Row, _Row], AfterValidator(_with_a_volume)]
 
 
 class Mesh(Sided):
@@ -94,6 +58,16 @@ class Mesh(Sided):
         description="four rows of four numbers, by which points of the file are multiplied, as "
         "columns, before they are scaled; default: they stay as they are",
     )
+    time: Annotated[float | None, Editable(Cost.RESTART, "seconds")] = Field(
+        None,
+        ge=0,
+        le=LARGEST,
+        description="moment of an animation of a glTF file; default: the pose without animation",
+    )
+    animation: Name | None = Field(
+        None,
+        description="name of that animation, or its number from 0; default: the first that moves",
+    )
     smooth: Annotated[Smooth, Editable(Cost.RECOMPILE)] = Field(
         True,
         description="whether normals are interpolated, those of the file or, where it has none, "
@@ -127,6 +101,8 @@ class Mesh(Sided):
             rotate: Triple = (0, 0, 0),
             scale: Number | Triple = 1,
             matrix: Sequence[Sequence[Number]] | Array | None = None,
+            time: Number | None = None,
+            animation: str | None = None,
             smooth: Smooth = True,
             crease: Number = 40.0,
             material: str = "",
@@ -162,12 +138,17 @@ class Mesh(Sided):
         """Triangles of all parts; ValueError before the file is read."""
         if (whole := self.file.triangles) is None:
             raise ValueError(f"the file {self.file.file} was not read")
+        if self.time is not None:
+            if whole.poses is None:
+                raise ValueError("it has no animation: leave `time` out")
+            whole = whole.poses.at(self.animation, self.time)
         return whole.creased(self.crease) if self.smooth == "auto" else whole
 
     @property
-    def form(self) -> tuple[str | None, str | None, float | None]:
+    def form(self) -> tuple[object, ...]:
         """The triangles by name: meshes of one form share them, wherever they stand."""
-        return self.file.sha256, self.part, self.crease if self.smooth == "auto" else None
+        crease = self.crease if self.smooth == "auto" else None
+        return self.file.sha256, self.part, crease, self.animation, self.time
 
     @property
     def linear(self) -> Array:

@@ -8,6 +8,7 @@ Modules, each importing only what stands above it:
 - attributes: vertex attributes of primitives
 - nodes: placements of meshes, cameras and lights
 - primitives: triangles of primitives
+- animations: animations of nodes, skins and morph targets
 - images: embedded and external images
 - materials: materials, converted to those of a scene
 - cameras_lights: cameras and lights, converted to those of a scene

@@ -1,6 +1,6 @@
 """Placements of the meshes, cameras and lights of a glTF file."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,10 +19,13 @@ class Placed(NamedTuple):
     matrix: Matrix  # from its coordinates to those of the file
 
 
-def placed_nodes(document: Document) -> Iterator[Placed]:
+def placed_nodes(
+    document: Document, changes: Mapping[int, Mapping[str, Any]] = {}
+) -> Iterator[Placed]:
     """Yield the nodes of the scene that the file shows, parents before children.
 
-    Without scenes, it yields all nodes. ValueError for a node below itself, or below two others.
+    Without scenes, it yields all nodes. `changes` are other values of nodes by number. ValueError
+    for a node below itself, or below two others.
     """
     waiting = [(index, np.eye(4)) for index in reversed(_roots(document))]
     seen = set[int]()
@@ -32,6 +35,9 @@ def placed_nodes(document: Document) -> Iterator[Placed]:
         if index in seen:
             raise ValueError(f"{here} stands below itself, or in two places")
         seen.add(index)
+        if index in changes:
+            node = {key: value for key, value in node.items() if key != "matrix"}
+            node |= changes[index]
         matrix = around @ _matrix(node, here)
         if not np.isfinite(matrix).all():
             raise ValueError(f"{here}: its transforms lead beyond all numbers")

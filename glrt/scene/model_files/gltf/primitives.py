@@ -5,13 +5,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from glrt.scene.meshes.triangle_meshes import (
-    MOST_TRIANGLES,
-    NO_MATERIAL,
-    MeshArrays,
-    TriangleMesh,
-    of_file,
-)
+from glrt.scene.meshes.checked_meshes import MeshArrays, of_file
+from glrt.scene.meshes.triangle_meshes import MOST_TRIANGLES, NO_MATERIAL, TriangleMesh
 from glrt.scene.model_files.gltf.accessors import Floats, Ints, floats
 from glrt.scene.model_files.gltf.attributes import Attributes, weights_of
 from glrt.scene.model_files.gltf.document import Document
@@ -70,10 +65,13 @@ class _Part(NamedTuple):
     material: str
 
 
-def mesh_of(document: Document) -> TriangleMesh:
-    """Return all triangles that the file shows; `material_names` names their materials."""
+def mesh_of(document: Document, changes: Mapping[int, Mapping[str, Any]] = {}) -> TriangleMesh:
+    """Return all triangles that the file shows; `material_names` names their materials.
+
+    `changes` are other values of nodes by number, as an animation gives them.
+    """
     names, parts, count = material_names(document), list[_Part](), 0
-    nodes = list(placed_nodes(document))
+    nodes = list(placed_nodes(document, changes))
     poses = {placed.number: placed.matrix for placed in nodes}
     for placed in nodes:
         if "mesh" not in placed.node:
