@@ -176,7 +176,7 @@ def damaged(content: bytes, seed: int) -> bytes:
     return bytes(data)
 
 
-# Of messages of Python and its libraries, which say nothing about a file.
+# Messages of Python and its libraries say nothing about a file.
 FOREIGN = (
     *("could not convert", "need at least one", "too large to convert", "No module", "codec"),
     *("index out of", "out of bounds", "cannot reshape", "broadcast", "itemsize", "object has no"),

@@ -6,6 +6,7 @@ Modules, each importing only what stands above it:
 - text_lines: lines and numbers of files in text
 - polygons: polygons, divided into triangles
 - obj: OBJ files
+- ply_header: headers of PLY files
 - ply_tables: tables of PLY files
 - ply: PLY files
 - stl: STL files
