@@ -69,7 +69,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_pipeline(parser)
     add_files(parser)
     add_summary(parser, "no progress and no summary")
-    parser.set_defaults(resume=None, part=None, frame=0)
+    parser.set_defaults(resume=None, part=None, frame=None)
 
 
 def _add_frames(parser: argparse.ArgumentParser) -> None:

@@ -21,7 +21,7 @@ from glrt.cli.options import (
     is_automatic,
 )
 from glrt.cli.render_report import Done, report
-from glrt.cli.request import Order, opened, order
+from glrt.cli.request import Order, frame_of, opened, order
 from glrt.core.errors import RenderError, UsageError
 from glrt.core.text import counted
 from glrt.image.image import Image, check_writable
@@ -74,9 +74,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--frame",
         type=int,
-        default=0,
         metavar="N",
-        help="the frame of the scene's animation, from 0 (default: %(default)s)",
+        help="the frame of the scene's animation, from 0 (default: 0; of a model its pose without "
+        "animation)",
     )
     add_context(parser)
     add_pipeline(parser)
@@ -110,7 +110,7 @@ def run(arguments: argparse.Namespace) -> int:
 def _run(arguments: argparse.Namespace) -> int:
     start = time.perf_counter()
     wanted = order(arguments)
-    wanted = replace(wanted, scene=wanted.scene.at_frame(arguments.frame))
+    wanted = replace(wanted, scene=frame_of(wanted.scene, arguments.frame))
     load = time.perf_counter() - start
     for output in arguments.outputs:
         check_writable(output)

@@ -59,6 +59,11 @@ def order(arguments: argparse.Namespace) -> Order:
     return _in_parts(arguments, _limited(arguments, found))
 
 
+def frame_of(scene: Scene, number: int | None) -> Scene:
+    """Return a frame of a scene as a still; None: with the values that it was loaded with."""
+    return scene.still if number is None else scene.at_frame(number)
+
+
 def _decisions_kept(arguments: argparse.Namespace, recipe: Recipe | None) -> dict[str, str]:
     """Return the decisions in a picture's recipe, except for settings on the command line."""
     told, given = recipe.decisions if recipe else {}, settings_given(arguments)
@@ -205,7 +210,7 @@ def _order_to_go_on(arguments: argparse.Namespace) -> Order:
         settings = settings_for(base, **settings_given(arguments))
         kept = _decisions_kept(arguments, recipe)
         order = _limited(arguments, Order(scene, settings, Limits(0), image, decisions=kept))
-        update = {"scene": scene.at_frame(arguments.frame), "settings": order.settings}
+        update = {"scene": frame_of(scene, arguments.frame), "settings": order.settings}
         fitting(image, recipe.model_copy(update=update))
         if recipe.partition:
             return _part_to_go_on(order, recipe.partition)

@@ -230,6 +230,18 @@ def test_a_model_plays_its_animation(model: Path, tmp_path: Path) -> None:
     assert [json.loads(line).get("kept") for line in done.stdout.splitlines()] == [True, True, None]
 
 
+def test_a_model_is_rendered_in_its_pose_unless_a_frame_is_named(
+    model: Path, tmp_path: Path
+) -> None:
+    small = ("--width", "16", "--height", "16", "--samples", "1")
+    found = {}
+    for name, more in (("pose", ()), ("start", ("--frame", "0"))):
+        path = tmp_path / f"{name}.exr"
+        assert command("render", model, "-o", path, *small, *more).returncode == 0
+        found[name] = glrt.Image.load(path).radiance.mean()
+    assert found["pose"] != found["start"]
+
+
 def test_a_moment_that_a_file_lacks_is_refused(model: Path, tmp_path: Path) -> None:
     builder = Builder()
     builder.shown(square(builder))
