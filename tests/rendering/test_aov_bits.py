@@ -53,10 +53,14 @@ def without_position(aovs: AovImages) -> AovImages:
 def picture(
     scene: Scene, context: Context, tier: Tier = "generic", way: Resolved = "compute", **more: Any
 ) -> Image:
-    """A picture of two observations and one sample, by default with all AOVs."""
+    """A picture of two observations and one sample, by default with all AOVs.
+
+    They take two dispatches at least, the second of which goes on from the films of the first.
+    """
     options: dict[str, Any] = {**SIZE, "bounces": 2, "aov": ALL, **more}
     renderer = Renderer(scene, None, context, tier, way, **options)
-    image = renderer.render(2 * renderer.settings.block + 1).image()
+    block = renderer.settings.block
+    image = renderer.render(block).render(2 * block + 1).image()
     renderer.release()
     return image
 
