@@ -55,7 +55,7 @@ def picture(
 ) -> Image:
     """A picture of two observations and one sample, by default with all AOVs.
 
-    They take two dispatches at least, the second of which goes on from the films of the first.
+    They take two dispatches at least: the second one goes on from the films of the first.
     """
     options: dict[str, Any] = {**SIZE, "bounces": 2, "aov": ALL, **more}
     renderer = Renderer(scene, None, context, tier, way, **options)
