@@ -10,6 +10,7 @@ from glrt.core.errors import GlrtError, RenderError, SceneError
 from glrt.gpu.context import Choice, Context, Pipeline
 from glrt.image.image import Image
 from glrt.image.recipe import FrameLimits
+from glrt.rendering.pipelines import Tier
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.stopping import Interruption, Limits, render_to_limit
 from glrt.series.kept_frames import kept
@@ -68,6 +69,7 @@ class Camerawork:
         """Open nothing yet."""
         self._wishes = wishes
         self._renderer: Renderer | None = None
+        self._tier: Tier = "generic"
 
     def render(
         self, still: Still, limits: Limits, interruption: Interruption, watch: Watched | None
@@ -85,18 +87,19 @@ class Camerawork:
         return None if interruption.signal is not None else image
 
     def _renderer_of(self, still: Still) -> Renderer:
-        renderer, wishes = self._renderer, self._wishes
-        if renderer is None:
-            self._renderer = renderer = Renderer(
-                *(still.scene, still.settings, wishes.context, "generic", wishes.pipeline),
-                decisions=wishes.decisions,
-            )
-        else:
-            renderer.update(still.scene, **dict(still.settings))
-            renderer.restart()
-        if _work(still) >= MUCH_WORK:
-            renderer.bake()
-        return renderer
+        tier: Tier = "baked" if _work(still) >= MUCH_WORK else "generic"
+        if self._renderer and tier == self._tier:
+            self._renderer.update(still.scene, **dict(still.settings))
+            self._renderer.restart()
+            return self._renderer
+        self.release()
+        wishes = self._wishes
+        self._tier = tier
+        self._renderer = Renderer(
+            *(still.scene, still.settings, wishes.context, tier, wishes.pipeline),
+            decisions=wishes.decisions,
+        )
+        return self._renderer
 
     def release(self) -> None:
         """Release OpenGL."""
