@@ -21,6 +21,7 @@ Programs, `python -m bench.NAME`; `--help` lists their options:
 - calibration: the estimated error of pictures against their true error
 - error_ratios: the same where few samples find light, and in ordinary scenes
 - false_alarms: the rates of false alarms and of detections of `glrt compare`
+- choices: whether `--caustics auto` chooses the best
 - films: whether a film takes longer than its stills
 - window_tour: frame times of the window, driven by a script
 - drags: whether the picture in the window follows a drag

@@ -16,6 +16,7 @@ from glrt.scene.materials.dielectric import Dielectric
 from glrt.scene.scene import Scene
 from glrt.settings import Settings, settings_for
 from tests.support.builders import MATTE, glass, lamp, plane, scene_of, sphere
+from tests.support.sun_map import even_sky, sun_map
 
 BALL = "methods/caustic"
 
@@ -86,12 +87,12 @@ def test_a_bright_pixel_does_not_hide_its_own_error() -> None:
     """Relative to it alone, an error that comes with a bright pixel would count as any other."""
     radiance = np.ones((16, 16, 3), np.float32)
     errors = 0.1 * radiance
-    assert_allclose(caustics._level(radiance), radiance)
-    assert caustics._relative(caustics._level(radiance), errors) == pytest.approx(0.01, rel=0.02)
+    assert_allclose(caustics.around(radiance), radiance)
+    assert caustics.variance_of(caustics.around(radiance), errors) == pytest.approx(0.01, rel=0.02)
     radiance[8, 8], errors[8, 8] = 26, 13
-    level = caustics._level(radiance)
+    level = caustics.around(radiance)
     assert_allclose(level[6:11, 6:11], 2)
-    assert caustics._relative(level, errors) > 2 * caustics._relative(radiance, errors)
+    assert caustics.variance_of(level, errors) > 2 * caustics.variance_of(radiance, errors)
 
 
 def under_a_ball(radius: float) -> Scene:
@@ -223,3 +224,18 @@ def test_an_error_that_few_samples_reach_is_not_worth_a_choice(context: Context)
     assert may_gain(scene, settings)
     assert particles_worth(scene, settings, context, error=1.0) is None
     assert particles_worth(scene, settings, context, error=0.001) is not None
+
+
+@pytest.mark.slow
+def test_a_small_sun_in_an_image_of_the_sky_gets_particles(context: Context) -> None:
+    """The sky is the only light: particles of a smooth one lose, those of a small sun win."""
+    scene = sun_map()
+    settings = settings_for(scene.render, width=64, height=64, samples=1 << 20)
+    assert may_gain(scene, settings)
+    found = particles_worth(scene, settings, context)
+    assert found
+    assert found.settings.caustics == "on"
+    assert found.gain > 2
+    even = particles_worth(even_sky(), settings, context)
+    assert even
+    assert even.settings.caustics == "off"

@@ -76,13 +76,11 @@ def may_gain(scene: Scene, settings: Settings) -> bool:
     """Whether a pilot is worth its work: for a long render in which particles can be followed.
 
     The scene needs glass, or metal that is not too rough, since particles are for their caustics.
-    The sky must not be the only light: it is seldom small enough to make caustics.
     """
     facts = SceneFacts(scene)
     return (
         _pilot_of(settings, settings.samples) > 0
         and any(map(makes_caustics, facts.materials.values()))
-        and not facts.particles.sky_sends
         and refusal(facts, settings_for(settings, caustics="on")) is None
     )
 
@@ -155,13 +153,13 @@ def _samples_to(error: float, plain: Image) -> float:
 def _gain(scene: Scene, settings: Settings, plain: Image, context: Context, pixels: int) -> float:
     """The efficiency of these settings, over that of the settings of a plain picture."""
     image = _picture(scene, settings, context, pixels)
-    level = _level(image.radiance)
-    cost = _relative(level, image.stderr) * _slowed(scene, settings, context)
-    variance = max(_relative(level, plain.stderr), _unseen(plain, image, level))
+    level = around(image.radiance)
+    cost = variance_of(level, image.stderr) * _slowed(scene, settings, context)
+    variance = max(variance_of(level, plain.stderr), _unseen(plain, image, level))
     return variance / max(cost, _TINY)
 
 
-def _level(radiance: Pixels) -> Pixels:
+def around(radiance: Pixels) -> Pixels:
     """The level that the errors of both pictures are relative to: the mean around each pixel.
 
     A pixel that met a rare bright path is too bright, and its error is large. Relative to that
@@ -186,7 +184,7 @@ def _unseen(plain: Image, other: Image, level: Pixels) -> float:
     sure = math.sqrt(float(np.mean(np.square(errors), dtype=float)) / pixels)
     if gap <= CERTAIN * sure:
         return 0.0
-    return pixels * _relative(level, np.full_like(level, gap))
+    return pixels * variance_of(level, np.full_like(level, gap))
 
 
 def _small(settings: Settings, pixels: int) -> Settings:
@@ -223,7 +221,7 @@ def _slowed(scene: Scene, settings: Settings, context: Context) -> float:
     return costs.camera_side + costs.particle_side * own / whole_groups / (both - own)
 
 
-def _relative(level: Pixels, errors: Pixels) -> float:
+def variance_of(level: Pixels, errors: Pixels) -> float:
     """The mean square of errors, relative to a level."""
     error = relative_error(level, errors)
     assert error is not None  # there are four observations or more
