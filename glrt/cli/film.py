@@ -19,7 +19,7 @@ from glrt.cli.options import (
 from glrt.cli.request import order
 from glrt.core.errors import RenderError, UsageError
 from glrt.core.text import counted
-from glrt.image.sources import check_not_scene
+from glrt.image.sources import check_not_scene, shown
 from glrt.process import signals
 from glrt.process.command import fail
 from glrt.rendering.stopping import Interruption
@@ -169,6 +169,11 @@ def _film(arguments: argparse.Namespace) -> Film:
     check_container(output.path)
     check_not_scene(output.path, arguments.scene)
     wanted = order(arguments)
+    if not (wanted.scene.animation or arguments.turntable or arguments.sweeps):
+        raise UsageError(
+            f"{shown(arguments.scene)} has no [animation], so it has one frame: give --turntable N "
+            "or --sweep KEY=FROM:TO:N."
+        )
     series = Series(
         *(wanted.scene, wanted.settings, arguments.turntable, tuple(arguments.sweeps)),
         varies_seed=arguments.vary_seed,

@@ -19,7 +19,15 @@ def summary(scene: Scene) -> list[str]:
         f"materials  {'; '.join(_materials(scene)) or 'none'}",
         *_textures(scene),
         f"lights     {few(_lights(scene)) or 'none'}",
+        *_animation(scene),
     ]
+
+
+def _animation(scene: Scene) -> list[str]:
+    if scene.animation is None:
+        return []
+    frames = f"{counted(scene.frames, 'frame')} at {number(scene.animation.fps)} a second"
+    return [f"animation  {frames}: {few([track.target for track in scene.animation.tracks])}"]
 
 
 def _objects(scene: Scene) -> Iterator[str]:

@@ -1,9 +1,11 @@
 """`glrt film`: the frames of a series and the files made of them; nothing is rendered twice."""
 
 import json
+import random
 import signal
 import subprocess
 import sys
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -14,7 +16,7 @@ from PIL import ImageSequence
 
 from glrt.image.image import Image
 from tests.support.images import same_bits
-from tests.support.processes import glrt
+from tests.support.processes import glrt, start
 
 SMALL = ("--width", "24", "--height", "16", "--samples", "16")
 SCENE = """
@@ -173,6 +175,25 @@ def test_a_killed_film_goes_on_to_the_same_bits(scene: Path, tmp_path: Path) -> 
         assert pair[0] == pair[1]
 
 
+@pytest.mark.slow
+def test_a_film_killed_at_ten_moments_has_the_same_bits(tmp_path: Path) -> None:
+    options = ("cradle", *SMALL, "--frames", "0-7")
+    film(*options, "-o", tmp_path / "whole" / "%d.exr")
+    draw, kills = random.Random(1), 0
+    while kills < 10:
+        process = start("film", *options, "-o", tmp_path / "cut" / "%d.exr")
+        time.sleep(draw.uniform(0.1, 1.5))
+        process.kill()
+        process.communicate(timeout=250)
+        kills += 1
+        for file in (tmp_path / "cut").glob("[0-9].exr"):
+            assert file.read_bytes() == (tmp_path / "whole" / file.name).read_bytes()
+    film(*options, "-o", tmp_path / "cut" / "%d.exr")
+    for number in range(8):
+        pair = [(tmp_path / f / f"{number}.exr").read_bytes() for f in ("whole", "cut")]
+        assert pair[0] == pair[1]
+
+
 def test_an_interrupted_film_says_how_to_go_on(scene: Path, tmp_path: Path) -> None:
     command = """
 import os, signal, sys
@@ -261,6 +282,17 @@ def test_wrong_usage_is_refused_before_anything_is_rendered(
     assert words in done.stderr
     assert "Traceback" not in done.stderr
     assert not list(tmp_path.glob("*.exr")) + list(tmp_path.glob("*.frames"))
+
+
+def test_a_scene_without_animation_needs_another_series(tmp_path: Path) -> None:
+    done = glrt("film", "cornell", "-o", tmp_path / "a.webp")
+    assert done.returncode == 2
+    assert "cornell has no [animation], so it has one frame: give --turntable" in done.stderr
+
+
+def test_inspect_names_what_moves(scene: Path) -> None:
+    done = glrt("inspect", scene)
+    assert "animation  4 frames at 3 a second: objects.ball.center" in done.stdout
 
 
 def test_an_mp4_without_its_library_says_what_to_install(scene: Path, tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 import copy
 import math
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -10,11 +11,14 @@ from hypothesis import given
 from hypothesis import strategies as some
 
 from glrt.core.errors import SceneError, UsageError
+from glrt.image.sources import load
 from glrt.scene.animation.interpolation import between
 from glrt.scene.animation.rotations import angles, matrix, slerp
 from glrt.scene.animation.tracks import Animation, Track, parse_target
 from glrt.scene.scene import Scene
+from glrt.scene.scenefile.catalog import find
 from glrt.scene.scenefile.toml import parse_scene
+from glrt.scene.scenefile.toml_writer import write_scene
 from glrt.scene.shapes.box import rotation
 
 SCENE: dict[str, Any] = {
@@ -200,3 +204,16 @@ def test_python_builds_what_a_file_says() -> None:
     )
     assert built.animation == animated(FOV).animation
     assert built.at_frame(2).camera.fov == 45
+
+
+def test_an_edited_scene_keeps_its_animation(tmp_path: Path) -> None:
+    """The window writes edits into the file, with its comments."""
+    file = tmp_path / "cradle.toml"
+    file.write_text(find("cradle").read_text())
+    scene = load(file)
+    moved = scene.camera.model_copy(update={"fov": 50.0})
+    assert write_scene(scene.model_copy(update={"camera": moved}), file, file)
+    again = load(file)
+    assert again.animation == scene.animation
+    assert again.camera.fov == 50
+    assert "# The right ball swings out" in file.read_text()
