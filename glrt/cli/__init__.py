@@ -11,6 +11,7 @@ Modules, each importing only what stands above it:
 - progress: the progress bar
 - render: `glrt render`
 - film_report: report of a film
+- film_jobs: jobs of render farms
 - film: `glrt film`
 - view: `glrt view`
 - merge: `glrt merge`

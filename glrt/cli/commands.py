@@ -55,9 +55,11 @@ def load(words: list[str] | None = None) -> None:
 
 
 def parse(words: list[str] | None = None) -> argparse.Namespace:
-    """Parse `words`, by default the command line; SystemExit after --help and --version."""
+    """Parse `words`, by default the command line, and keep them; SystemExit after --help."""
     words = sys.argv[1:] if words is None else words
-    return make_parser(_called(words)).parse(words)
+    arguments = make_parser(_called(words)).parse(words)
+    arguments.words = words
+    return arguments
 
 
 def run(words: list[str] | None = None) -> int:

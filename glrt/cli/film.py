@@ -5,6 +5,7 @@ from dataclasses import replace
 from typing import Any
 
 from glrt.cli.caustics import with_caustics
+from glrt.cli.film_jobs import EXPORTS, job
 from glrt.cli.film_report import Reporter, named
 from glrt.cli.options import (
     SCENE,
@@ -55,6 +56,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "frame, such as frames/%%04d.exr, frames/%%04d.png or frames/####.exr",
     )
     _add_frames(parser)
+    _add_jobs(parser)
     add_settings(parser, has_auto=True)
     parser.add_argument(
         "--time", type=float, metavar="SECONDS", help="stop each frame after this time"
@@ -116,6 +118,23 @@ def _add_frames(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def _add_jobs(parser: argparse.ArgumentParser) -> None:
+    group = parser.add_argument_group("jobs of render farms")
+    group.add_argument(
+        "--export",
+        choices=EXPORTS,
+        help="print the job that renders the frames, and render nothing: a shell script, the "
+        "commands of OpenCue's cuecmd, or a template of Open Job Description",
+    )
+    group.add_argument(
+        "--chunk",
+        type=_whole,
+        default=1,
+        metavar="N",
+        help="frames of each task of a job (default: %(default)s)",
+    )
+
+
 def _frames(text: str) -> tuple[int, int]:
     first, _, last = text.partition("-")
     try:
@@ -143,6 +162,9 @@ def _swept(text: str) -> Any:
 def run(arguments: argparse.Namespace) -> int:
     """Render a film; the exit code is 1 if a frame did not reach `--error`, 4 if some failed."""
     film = _film(arguments)
+    if arguments.export:
+        print(job(arguments.export, arguments.words, film.numbers, arguments.chunk), end="")
+        return 0
     reporter = Reporter(arguments, film)
     with Interruption().watched() as interruption:
         with reporter.watching() as watch:
@@ -182,15 +204,15 @@ def _film(arguments: argparse.Namespace) -> Film:
     if output.kind == "sheet":
         check_sheet(series, len(numbers))
     series.check()
+    wishes = Wishes(arguments.time, arguments.error, arguments.context, arguments.pipeline)
+    if arguments.export:
+        return Film(series, numbers, output, wishes, arguments.fps)
     output.check(numbers.start)
     first = series.still(0)
     wanted = with_caustics(arguments, replace(wanted, scene=first.scene, settings=first.settings))
     particles = {name: getattr(wanted.settings, name) for name in _OF_PARTICLES}
     series = replace(series, settings=series.settings.model_copy(update=particles))
-    wishes = Wishes(
-        *(arguments.time, arguments.error, arguments.context, arguments.pipeline),
-        wanted.decisions,
-    )
+    wishes = replace(wishes, decisions=wanted.decisions)
     return Film(series, numbers, output, wishes, arguments.fps)
 
 
@@ -205,5 +227,10 @@ def _check(arguments: argparse.Namespace) -> None:
         raise UsageError("--turntable and --sweep do not go together: render one of them.")
     if len(arguments.sweeps) > MOST_SWEEPS:
         raise UsageError("--sweep can be given twice: rows and columns of a sheet.")
+    if arguments.export and parse_output(arguments.output).kind != "frames":
+        raise UsageError(
+            f"--export needs -o with a place for the number of a frame, as frames/%04d.exr; got "
+            f"{arguments.output}."
+        )
     if arguments.fps is not None and not 0 < arguments.fps <= MOST_FPS:
         raise UsageError(f"--fps must be above 0 and at most {MOST_FPS}, got {arguments.fps:g}.")

@@ -8,6 +8,7 @@ import sys
 import time
 from pathlib import Path
 
+import av
 import numpy as np
 import pytest
 from PIL import Image as Pillow
@@ -104,7 +105,6 @@ def test_a_film_holds_its_frames_times_and_recipe(scene: Path, tmp_path: Path, s
 
 
 def test_an_mp4_shows_its_frames_in_their_colours(scene: Path, tmp_path: Path) -> None:
-    av = pytest.importorskip("av", reason="PyAV is missing: pip install 'glrt[film]'")
     odd = ("--width", "25", "--height", "17", "--samples", "16")
     film(scene, "-o", tmp_path / "film.mp4", *odd)
     film(scene, "-o", tmp_path / "%d.png", *odd)

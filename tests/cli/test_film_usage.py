@@ -1,9 +1,12 @@
 """`glrt film` refuses wrong usage before it renders anything."""
 
+import json
+import shlex
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from openjd.model import decode_job_template
 
 from tests.support.moving_ball import MOVING_BALL
 from tests.support.processes import glrt
@@ -38,6 +41,10 @@ BAD: dict[str, tuple[Callable[[Path], tuple[str, ...]], str]] = {
     "fps": (lambda path: ("-o", "a.gif", "--fps", "0"), "--fps must be above 0"),
     "turns": (lambda path: ("-o", "a.gif", "--turntable", "0"), "is not a number of frames"),
     "sweep": (lambda path: ("-o", "a.gif", "--sweep", "camera.fov=1"), "is not KEY=FROM:TO:N"),
+    "a job of a film": (
+        lambda path: ("-o", "a.gif", "--export", "sh"),
+        "--export needs -o with a place for the number",
+    ),
     "sheet": (
         lambda path: ("-o", "a.png", "--turntable", "9999", "--width", "999"),
         "render smaller or fewer frames",
@@ -79,3 +86,38 @@ def test_the_frame_of_a_still_is_refused(tmp_path: Path) -> None:
     done = glrt("render", "cornell", "--frame", "1", "-o", tmp_path / "a.exr")
     assert done.returncode == 2
     assert "there is no frame 1: the scene has frame 0 alone" in done.stderr
+
+
+def test_jobs_render_each_frame_once(scene: Path, tmp_path: Path) -> None:
+    words = ("film", scene, "-o", tmp_path / "out dir" / "%d.exr", "--width", "8", "--height", "8")
+    more = ("--samples", "2", "--frames=0-2", "--chunk", "2")
+    done = glrt(*words, *more, "--export", "openjd")
+    assert done.returncode == 0, done.stderr
+    table = json.loads(done.stdout)
+    step = table["steps"][0]
+    given = step["parameterSpace"]["taskParameterDefinitions"][0]
+    assert (table["specificationVersion"], given["range"]) == (
+        "jobtemplate-2023-09",
+        ["0-1", "2-2"],
+    )
+    run = step["script"]["actions"]["onRun"]
+    assert run["args"] == [*map(str, words), *more[:2], "--frames", "{{Task.Param.Frames}}"]
+    commands = glrt(*words, *more, "--export", "cuecmd").stdout
+    script = glrt(*words, *more, "--export", "sh").stdout
+    assert script == "#!/bin/sh\nset -e\n" + commands
+    assert not (tmp_path / "out dir").exists()
+    for line in commands.splitlines():
+        name, *task = shlex.split(line)
+        assert name == "glrt"
+        assert glrt(*task).returncode == 0
+    assert sorted(path.name for path in (tmp_path / "out dir").iterdir()) == [
+        "0.exr",
+        "1.exr",
+        "2.exr",
+    ]
+
+
+def test_a_job_template_is_valid(scene: Path, tmp_path: Path) -> None:
+    """Against the model of the specification."""
+    done = glrt("film", scene, "-o", tmp_path / "%d.exr", "--export", "openjd")
+    decode_job_template(template=json.loads(done.stdout))
