@@ -135,7 +135,9 @@ def _lamps_of(scene: Scene) -> Counter[str]:
 
 
 def _shape(app: App, index: int, shape: Shape) -> None:
-    changes = edited_fields(controls_of(type(shape)), dict(shape), f"shape {index}")
+    values = dict(shape)
+    controls = tuple(it for it in controls_of(type(shape)) if values[it.name] is not None)
+    changes = edited_fields(controls, values, f"shape {index}")
     if changes:
         app.edit_scene(f"object {index} {list(changes)}", partial(_reshaped, index, changes))
 
