@@ -65,26 +65,25 @@ class Frame(NamedTuple):
 class Camerawork:
     """Renders one still after another; what fits the next one is kept: program, trees, film."""
 
-    def __init__(self, wishes: Wishes) -> None:
+    def __init__(self, wishes: Wishes, interruption: Interruption) -> None:
         """Open nothing yet."""
         self._wishes = wishes
+        self._interruption = interruption
         self._renderer: Renderer | None = None
         self._tier: Tier = "generic"
 
-    def render(
-        self, still: Still, limits: Limits, interruption: Interruption, watch: Watched | None
-    ) -> Image | None:
+    def render(self, still: Still, limits: Limits, watch: Watched | None = None) -> Image | None:
         """Return the picture of a still; None if interrupted before its limit.
 
         Raises the errors of `Renderer`; the next still then opens a new one.
         """
         try:
             renderer = self._renderer_of(still)
-            image = render_to_limit(renderer, limits, interruption, watch)
+            image = render_to_limit(renderer, limits, self._interruption, watch)
         except GlrtError:
             self.release()
             raise
-        return None if interruption.signal is not None else image
+        return None if self._interruption.signal is not None else image
 
     def _renderer_of(self, still: Still) -> Renderer:
         tier: Tier = "baked" if _work(still) >= MUCH_WORK else "generic"
@@ -100,6 +99,34 @@ class Camerawork:
             decisions=wishes.decisions,
         )
         return self._renderer
+
+    def frame(
+        self, series: Series, number: int, output: Output, watch: Watch | None
+    ) -> Frame | None:
+        """Return a frame as it stands; None if interrupted before its limit.
+
+        Raises `RenderError` if its file cannot be written.
+        """
+        start, file, wishes = time.perf_counter(), output.frame(number), self._wishes
+        try:
+            still = series.still(number)
+            if record := kept(file, still, wishes.of(number)):
+                return Frame(number, file, still.label, record)
+            limits = wishes.limits(still)
+            watched = (lambda renderer: watch(number, limits, renderer)) if watch else None
+            image = self.render(still, limits, watched)
+        except (SceneError, RenderError) as error:
+            return Frame(number, file, failure=str(error))
+        if image is None:
+            return None
+        record = wishes.of(number)
+        reached = image.error_to_reach
+        if wishes.error is not None and (reached is None or reached > wishes.error):
+            record = record.model_copy(update={"reached": False})
+        if image.recipe:
+            image = replace(image, recipe=image.recipe.model_copy(update={"frame": record}))
+        image.save(file)
+        return Frame(number, file, still.label, record, image, time.perf_counter() - start)
 
     def release(self) -> None:
         """Release OpenGL."""
@@ -127,44 +154,13 @@ def render_frames(
     interruption ends the series after the frames that are complete. Raises `RenderError` if a file
     cannot be written.
     """
-    work = Camerawork(wishes)
+    work = Camerawork(wishes, interruption)
     try:
         for number in numbers:
             if interruption.signal is not None:
                 return
-            frame = _frame(series, number, output, wishes, work, interruption, watch)
+            frame = work.frame(series, number, output, watch)
             if frame is not None:
                 yield frame
     finally:
         work.release()
-
-
-def _frame(
-    series: Series,
-    number: int,
-    output: Output,
-    wishes: Wishes,
-    work: Camerawork,
-    interruption: Interruption,
-    watch: Watch | None,
-) -> Frame | None:
-    start, file = time.perf_counter(), output.frame(number)
-    try:
-        still = series.still(number)
-        if record := kept(file, still, wishes.of(number)):
-            return Frame(number, file, still.label, record)
-        limits = wishes.limits(still)
-        watched = (lambda renderer: watch(number, limits, renderer)) if watch else None
-        image = work.render(still, limits, interruption, watched)
-    except (SceneError, RenderError) as error:
-        return Frame(number, file, failure=str(error))
-    if image is None:
-        return None
-    record = wishes.of(number)
-    reached = image.error_to_reach
-    if wishes.error is not None and (reached is None or reached > wishes.error):
-        record = record.model_copy(update={"reached": False})
-    if image.recipe:
-        image = replace(image, recipe=image.recipe.model_copy(update={"frame": record}))
-    image.save(file)
-    return Frame(number, file, still.label, record, image, time.perf_counter() - start)

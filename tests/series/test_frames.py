@@ -45,11 +45,11 @@ def test_a_frame_has_the_bits_of_a_still_with_its_values(context: Context) -> No
     expected = own.render().image().radiance
     own.release()
     series = Series(scene, SMALL)
-    work = Camerawork(Wishes(context=context))
+    work = Camerawork(Wishes(context=context), Interruption())
     found = []
     for number in (0, 1, 2, 4, 2):
         frame = series.still(number)
-        image = work.render(frame, Wishes().limits(frame), Interruption(), None)
+        image = work.render(frame, Wishes().limits(frame))
         assert image
         found.append(image.radiance)
     work.release()
