@@ -90,6 +90,20 @@ def read_png_metadata(path: Path) -> Mapping[Any, Any]:
         raise _unreadable(path, error) from None
 
 
+def check_pixels(path: Path) -> None:
+    """Raise `UsageError` if the pixels of an EXR or PNG file cannot be read to their end."""
+    if path.suffix.lower() == ".exr":
+        read_exr(path)
+        return
+    from PIL.PngImagePlugin import PngImageFile
+
+    try:
+        with PngImageFile(path) as file:
+            file.load()
+    except (OSError, SyntaxError, ValueError) as error:
+        raise _unreadable(path, error) from None
+
+
 def _unreadable(path: Path, error: BaseException) -> UsageError:
     return UsageError(
         f"{path}: cannot read this image: {files.reason(error)}. Check name and file."

@@ -5,6 +5,7 @@ from pathlib import Path
 from glrt.core.errors import GlrtError
 from glrt.core.version import VERSION
 from glrt.image.image import read_recipe
+from glrt.image.picture_files import check_pixels
 from glrt.image.recipe import FrameLimits
 from glrt.scene.loading.scene_files import hashes_of
 from glrt.scene.scenefile.toml import scene_to_dict
@@ -23,6 +24,7 @@ def kept(file: Path, still: Still, limits: FrameLimits) -> FrameLimits | None:
         return None
     try:
         recipe = read_recipe(file)
+        check_pixels(file)
     except GlrtError:
         return None
     frame = recipe.frame

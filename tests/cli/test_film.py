@@ -166,6 +166,18 @@ def test_a_killed_film_goes_on_to_the_same_bits(scene: Path, tmp_path: Path) -> 
         assert pair[0] == pair[1]
 
 
+@pytest.mark.parametrize("suffix", ["exr", "png"])
+def test_a_frame_that_was_cut_off_is_rendered_again(
+    scene: Path, tmp_path: Path, suffix: str
+) -> None:
+    options = (scene, *SMALL, "--frames", "0-1", "-o", tmp_path / f"%d.{suffix}")
+    film(*options)
+    whole = (tmp_path / f"1.{suffix}").read_bytes()
+    (tmp_path / f"1.{suffix}").write_bytes(whole[:-40])
+    assert [frame["kept"] for frame in film(*options)[:-1]] == [True, False]
+    assert (tmp_path / f"1.{suffix}").read_bytes() == whole
+
+
 @pytest.mark.slow
 def test_a_film_killed_at_ten_moments_has_the_same_bits(tmp_path: Path) -> None:
     options = ("cradle", *SMALL, "--frames", "0-7")
