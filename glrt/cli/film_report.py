@@ -49,25 +49,24 @@ class Reporter:
             print(f"glrt: frame {frame.number} failed: {frame.failure}", file=sys.stderr)
         if self._arguments.json:
             print_figures(_figures(frame), [str(frame.file)])
-        elif frame.image and not self._arguments.quiet:
+        elif frame.samples and not self._arguments.quiet:
             print(self._line(frame), file=sys.stderr)
 
     def _line(self, frame: Frame) -> str:
-        image, film = frame.image, self._film
-        assert image
-        error = "" if image.error is None else f", error {100 * image.error:.2g} %"
+        film = self._film
+        error = "" if frame.error is None else f", error {100 * frame.error:.2g} %"
         place = f"{len(film.frames)} of {len(film.numbers)}"
-        work = f"{counted(image.samples, 'sample')} in {frame.seconds:.1f} s"
+        work = f"{counted(frame.samples, 'sample')} in {frame.seconds:.1f} s"
         return f"Frame {frame.number} ({place}, {frame.label}): {work}{error}{self._to_go()}."
 
     def _to_go(self) -> str:
         left = len(self._film.numbers) - len(self._film.frames)
-        times = [frame.seconds for frame in self._film.frames if frame.image]
+        times = [frame.seconds for frame in self._film.frames if frame.samples]
         return f"; {left * float(np.median(times)):.0f} s to go" if left else ""
 
     def summarize(self) -> None:
         """Print the figures of the film."""
-        film, new = self._film, sum(frame.image is not None for frame in self._film.frames)
+        film, new = self._film, sum(frame.samples > 0 for frame in self._film.frames)
         name, count = str(film.output.path), len(film.frames)
         width, height = film.series.settings.size
         seconds = time.perf_counter() - self._start
@@ -91,15 +90,14 @@ def named(frames: Sequence[Frame]) -> str:
 
 
 def _figures(frame: Frame) -> dict[str, Any]:
-    image = frame.image
     return {
         "frame": frame.number,
         "file": str(frame.file),
         "label": frame.label,
-        "kept": bool(frame.record and not image),
+        "kept": bool(frame.record and not frame.samples),
         "failure": frame.failure or None,
         "reached": None if frame.record is None else frame.record.reached,
-        "samples": image.samples if image else None,
-        "error": image.error if image else None,
+        "samples": frame.samples or None,
+        "error": frame.error,
         "seconds": round(frame.seconds, 6),
     }

@@ -2,8 +2,8 @@
 
 import json
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field
-from shutil import rmtree
 
 import numpy as np
 from numpy.typing import NDArray
@@ -73,7 +73,7 @@ class Film:
             yield frame
 
     def write(self, keeps_frames: bool) -> None:
-        """Write the film or the sheet of its frames, and remove their folder unless it is to stay.
+        """Write the film or the sheet of its frames, and remove these unless they are to stay.
 
         Raises `RenderError` if it cannot be written: the frames then stay.
         """
@@ -90,7 +90,14 @@ class Film:
             ]
             write_sheet(output.path, cells, self.series.columns(len(cells)), self.recipe)
         if not keeps_frames:
-            rmtree(output.folder, ignore_errors=True)
+            self._remove_frames()
+
+    def _remove_frames(self) -> None:
+        """Remove the files of the frames, and their folder if it holds nothing else."""
+        with suppress(OSError):
+            for frame in self.frames:
+                frame.file.unlink(missing_ok=True)
+            self.output.folder.rmdir()
 
     def _codes(self, frame: Frame) -> NDArray[np.uint8]:
         image, settings = Image.load(frame.file), self.series.settings

@@ -52,9 +52,10 @@ class Frame(NamedTuple):
     file: Path
     label: str = ""
     record: FrameLimits | None = None  # None: it failed
-    image: Image | None = None  # None: it was kept from before, or failed
-    seconds: float = 0.0
     failure: str = ""
+    samples: int = 0  # of a pixel, rendered now; 0: it was kept from before, or failed
+    error: float | None = None  # estimate, if it was rendered now and has one
+    seconds: float = 0.0
 
     @property
     def is_missed(self) -> bool:
@@ -126,7 +127,8 @@ class Camerawork:
         if image.recipe:
             image = replace(image, recipe=image.recipe.model_copy(update={"frame": record}))
         image.save(file)
-        return Frame(number, file, still.label, record, image, time.perf_counter() - start)
+        seconds = time.perf_counter() - start
+        return Frame(number, file, still.label, record, "", image.samples, image.error, seconds)
 
     def release(self) -> None:
         """Release OpenGL."""

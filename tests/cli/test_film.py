@@ -166,6 +166,14 @@ def test_a_killed_film_goes_on_to_the_same_bits(scene: Path, tmp_path: Path) -> 
         assert pair[0] == pair[1]
 
 
+def test_other_files_in_the_folder_of_the_frames_are_kept(scene: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "film.gif.frames"
+    folder.mkdir()
+    (folder / "notes.txt").write_text("mine")
+    film(scene, "-o", tmp_path / "film.gif", *SMALL)
+    assert [file.name for file in folder.iterdir()] == ["notes.txt"]
+
+
 @pytest.mark.parametrize("suffix", ["exr", "png"])
 def test_a_frame_that_was_cut_off_is_rendered_again(
     scene: Path, tmp_path: Path, suffix: str
