@@ -16,7 +16,7 @@ from glrt.rendering.renderer import Renderer
 from glrt.rendering.stopping import Interruption
 from glrt.series.film import Film
 from glrt.series.outputs import parse_output
-from glrt.series.rendering import Wishes
+from glrt.series.rendering import RenderOptions
 from glrt.series.series import Series
 from glrt.series.sweeps import parse_sweep
 from glrt.settings import settings_for
@@ -63,7 +63,7 @@ def _series(name: str, parsed: argparse.Namespace) -> Series:
 
 
 def _film(series: Series, count: int, path: Path) -> None:
-    film = Film(series, range(count), parse_output(str(path)), Wishes())
+    film = Film(series, range(count), parse_output(str(path)), RenderOptions())
     film.output.check(0)
     for _ in film.render(Interruption()):
         pass

@@ -20,24 +20,24 @@ from glrt.cli.options import (
 from glrt.cli.request import order
 from glrt.core.errors import RenderError, UsageError
 from glrt.core.text import counted
-from glrt.image.sources import check_not_scene, shown
+from glrt.image.sources import STANDARD_INPUT, check_not_scene, shown
 from glrt.process import signals
 from glrt.process.command import fail
 from glrt.rendering.stopping import Interruption
 from glrt.series.containers import check_container
 from glrt.series.film import Film
 from glrt.series.outputs import parse_output
-from glrt.series.rendering import Wishes
+from glrt.series.rendering import RenderOptions
 from glrt.series.series import Series, chosen
 from glrt.series.sheet import check_sheet
 from glrt.series.sweeps import parse_sweep
 
 DESCRIPTION = "Render a series of pictures: the scene's animation, a turntable, or a sweep."
 EPILOG = (
-    "Frames that stand whole from an earlier run are kept if scene, settings and limits are the "
-    "same. Exit codes: 0 done, 1 a frame did not reach --error, 2 wrong usage or scene, 3 no "
-    "usable OpenGL, 4 frames failed and the others are kept, 129, 130 and 143 interrupted: the "
-    "same command goes on."
+    "Complete frames of an earlier run are kept if scene, settings and limits are the same. Exit "
+    "codes: 0 done, 1 a frame did not reach --error, 2 wrong usage or scene, 3 no usable OpenGL, 4 "
+    "frames failed and the others are kept, 129, 130 and 143 interrupted; the same command then "
+    "continues."
 )
 MOST_SWEEPS = 2  # rows and columns of a sheet
 MOST_FPS = 1000
@@ -87,7 +87,7 @@ def _add_frames(parser: argparse.ArgumentParser) -> None:
         "--turntable",
         type=_whole,
         metavar="N",
-        help="N frames of a camera that goes once round the point it looks at, about its axis up",
+        help="N frames of a camera that turns once around the point it looks at, about its axis up",
     )
     group.add_argument(
         "--sweep",
@@ -171,8 +171,8 @@ def run(arguments: argparse.Namespace) -> int:
             for frame in film.render(interruption, watch):
                 reporter.report(frame)
         if interruption.signal is not None:
-            done = f"{len(film.standing)} of {counted(len(film.numbers), 'frame')}"
-            text = f"interrupted; {done} stand: the same command goes on"
+            done = f"{len(film.complete)} of {counted(len(film.numbers), 'frame')}"
+            text = f"interrupted; {done} are done: the same command continues"
             return fail(text, signals.INTERRUPTED + interruption.signal)
     if film.failed:
         text = f"{named(film.failed)} failed; the others are kept in {film.output.folder}"
@@ -204,16 +204,16 @@ def _film(arguments: argparse.Namespace) -> Film:
     if output.kind == "sheet":
         check_sheet(series, len(numbers))
     series.check()
-    wishes = Wishes(arguments.time, arguments.error, arguments.context, arguments.pipeline)
+    options = RenderOptions(arguments.time, arguments.error, arguments.context, arguments.pipeline)
     if arguments.export:
-        return Film(series, numbers, output, wishes, arguments.fps)
+        return Film(series, numbers, output, options, arguments.fps)
     output.check(numbers.start)
     first = series.still(0)
     wanted = with_caustics(arguments, replace(wanted, scene=first.scene, settings=first.settings))
     particles = {name: getattr(wanted.settings, name) for name in _OF_PARTICLES}
     series = replace(series, settings=series.settings.model_copy(update=particles))
-    wishes = replace(wishes, decisions=wanted.decisions)
-    return Film(series, numbers, output, wishes, arguments.fps)
+    options = replace(options, decisions=wanted.decisions)
+    return Film(series, numbers, output, options, arguments.fps)
 
 
 def _check(arguments: argparse.Namespace) -> None:
@@ -227,6 +227,8 @@ def _check(arguments: argparse.Namespace) -> None:
         raise UsageError("--turntable and --sweep do not go together: render one of them.")
     if len(arguments.sweeps) > MOST_SWEEPS:
         raise UsageError("--sweep can be given twice: rows and columns of a sheet.")
+    if arguments.export and arguments.scene == STANDARD_INPUT:
+        raise UsageError("--export needs a scene file: tasks have no standard input.")
     if arguments.export and parse_output(arguments.output).kind != "frames":
         raise UsageError(
             f"--export needs -o with a place for the number of a frame, as frames/%04d.exr; got "

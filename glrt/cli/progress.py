@@ -2,8 +2,9 @@
 
 import math
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from typing import Any, Protocol
 
 from glrt.rendering.renderer import Renderer
@@ -23,42 +24,38 @@ class Watch(Protocol):
 @contextmanager
 def progress_bar(limits: Limits, begun: int = 0) -> Iterator[Watch]:
     """Yield the updater of a temporary bar on stderr; `begun`: samples at the start."""
+    forecast = Forecast(limits, begun)
+    with _bar() as show:
+        yield lambda renderer: show(**forecast.after(renderer))
+
+
+@contextmanager
+def film_bar(count: int) -> Iterator["FilmWatch"]:
+    """Yield the updater of a temporary bar on stderr for a film of `count` frames."""
+    with _bar() as show:
+        forecasts = dict[int, Forecast]()  # of the frame that is rendered
+
+        def watch(number: int, done: int, limits: Limits, renderer: Renderer) -> None:
+            if number not in forecasts:
+                forecasts.clear()
+                forecasts[number] = Forecast(limits)
+            state = forecasts[number].after(renderer)
+            place = f"frame {number} ({done + 1} of {count}), {state['done']}"
+            show(**{**state, "completed": (done + state["completed"]) / count, "done": place})
+
+        yield watch
+
+
+@contextmanager
+def _bar() -> Iterator[Callable[..., None]]:
+    """Yield a function that updates a temporary bar on stderr by the fields of `Forecast.after`."""
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn
 
     columns = (TextColumn("{task.fields[done]}"), BarColumn(), TextColumn("{task.fields[rest]}"))
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task("render", total=1.0, done="compiling", rest="")
-        forecast = Forecast(limits, begun)
-
-        def watch(renderer: Renderer) -> None:
-            state: dict[str, Any] = forecast.after(renderer)
-            bar.update(task, **state)
-
-        yield watch
-
-
-@contextmanager
-def film_bar(count: int) -> Iterator["FilmWatch"]:
-    """Yield the updater of a temporary bar on stderr for a film of `count` frames."""
-    from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn
-
-    columns = (TextColumn("{task.fields[done]}"), BarColumn(), TextColumn("{task.fields[rest]}"))
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task("film", total=1.0, done="compiling", rest="")
-        forecasts = dict[int, Forecast]()
-
-        def watch(number: int, done: int, limits: Limits, renderer: Renderer) -> None:
-            if number not in forecasts:
-                forecasts.clear()
-                forecasts[number] = Forecast(limits)
-            state: dict[str, Any] = forecasts[number].after(renderer)
-            share = (done + state["completed"]) / count
-            text = f"frame {number} ({done + 1} of {count}), {state['done']}"
-            bar.update(task, completed=share, done=text, rest=state["rest"])
-
-        yield watch
+        yield partial(bar.update, task)
 
 
 class FilmWatch(Protocol):

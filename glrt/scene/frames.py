@@ -32,8 +32,6 @@ def with_values(scene: SceneType, values: Mapping[Keys, Any], source: str) -> Sc
             update[table] = {**now, keys[1]: value}
             continue
         parts = _parts(now, keys)
-        for part in parts.values():
-            _check_key(part, keys)
         new = {place: _part(part, keys, value, source) for place, part in parts.items()}
         if table == "objects":
             update[table] = tuple(new.get(place, thing) for place, thing in enumerate(now))
@@ -48,55 +46,55 @@ def animation_problems(scene: SceneFields, groups: Collection[str]) -> Iterator[
     `groups` are the light groups of the scene.
     """
     for number, track in enumerate(scene.animation.tracks if scene.animation else ()):
-        here: Place = ("animation", "tracks", number)
-        if track.keys[0] == "lights" and track.keys[1] not in groups:
-            yield (*here, "target"), unknown("light group", track.keys[1], sorted(groups))
-            continue
-        try:
-            parts = list(_parts(getattr(scene, track.keys[0]), track.keys).values())
-            for part in parts:
-                _check_key(part, track.keys)
-        except SceneError as error:
-            yield (*here, "target"), str(error)
-            continue
-        problem = next(_wrong_values(track, parts), None)
-        if problem:
-            yield (*here, "values", problem[0]), problem[1]
+        is_of_light = track.keys[0] == "lights"
+        found = _of_light(track, groups) if is_of_light else _of_part(scene, track)
+        if problem := next(found, None):
+            yield ("animation", "tracks", number, *problem[0]), problem[1]
 
 
-def _wrong_values(track: Track, parts: Sequence[Any]) -> Iterator[tuple[int, str]]:
-    """Yield the numbers of keys whose values are out of range, with advice."""
-    is_light = track.keys[0] == "lights"
+def _of_light(track: Track, groups: Collection[str]) -> Iterator[tuple[Place, str]]:
+    """Yield problems of the track of a light group, with their place in the track."""
+    group = track.keys[1]
+    if group not in groups:
+        yield ("target",), unknown("light group", group, sorted(groups))
     for number, value in enumerate(track.plain_values):
-        if is_light and not (isinstance(value, float) and value >= 0):
-            yield number, f"must be a number from 0 to {LARGEST:g}"
+        if not (isinstance(value, float) and value >= 0):
+            yield ("values", number), f"must be a number from 0 to {LARGEST:g}"
+
+
+def _of_part(scene: SceneFields, track: Track) -> Iterator[tuple[Place, str]]:
+    """Yield problems of the track of a value of a part, with their place in the track."""
+    try:
+        parts = _parts(getattr(scene, track.keys[0]), track.keys)
+    except SceneError as error:
+        yield ("target",), str(error)
+        return
+    for number, value in enumerate(track.plain_values):
         try:
-            for part in [] if is_light else parts:
+            for part in parts.values():
                 _part(part, track.keys, value, "")
         except SceneError as error:
-            yield number, str(error).removeprefix(": ")
+            yield ("values", number), str(error).removeprefix(": ")
 
 
 def _parts(now: Any, keys: Keys) -> dict[Any, Any]:
-    """Return the parts of a table that a target changes, by their place in it."""
-    table, name = keys[:2]
-    if table == "lights":
-        return {}
+    """Return the parts of a table that have the value of a target, by their place in it."""
+    table, name, *_ = keys
     if table == "materials":
         if name not in now:
             raise SceneError(unknown("material", name, sorted(now)))
-        return {name: now[name]}
-    if table == "objects":
-        return {number: now[number] for number in _called(now, name)}
-    if now is None:
+        parts: dict[Any, Any] = {name: now[name]}
+    elif table == "objects":
+        parts = {number: now[number] for number in _called(now, name)}
+    elif now is None:
         raise SceneError(f"the scene has no [{table}]")
-    return {table: now}
-
-
-def _check_key(part: BaseModel, keys: Keys) -> None:
-    if keys[-1] not in type(part).model_fields:
-        owner = f"Keys of {'.'.join(keys[:-1])}"
-        raise SceneError(unknown("key", keys[-1], type(part).model_fields, owner))
+    else:
+        parts = {table: now}
+    for part in parts.values():
+        if keys[-1] not in type(part).model_fields:
+            owner = f"Keys of {'.'.join(keys[:-1])}"
+            raise SceneError(unknown("key", keys[-1], type(part).model_fields, owner))
+    return parts
 
 
 def _part(part: BaseModel, keys: Keys, value: Any, source: str) -> BaseModel:

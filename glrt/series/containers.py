@@ -13,7 +13,6 @@ from glrt.core.errors import UsageError
 from glrt.core.files import write_whole
 
 if TYPE_CHECKING:
-    from PIL.Image import Dither
     from PIL.Image import Image as Picture
 
 Codes = NDArray[np.uint8]
@@ -69,15 +68,9 @@ def _write_webp(path: Path, frames: Iterable[Codes], times: list[int], text: str
 
 
 def _write_gif(path: Path, frames: Iterable[Codes], times: list[int], text: str) -> None:
-    first, *rest = (picture.quantize(dither=_dither()) for picture in _pictures(frames))
+    first, *rest = (picture.quantize() for picture in _pictures(frames))
     options = {"append_images": rest, "duration": times, "loop": 0}
     first.save(path, "GIF", save_all=True, comment=text.encode(), disposal=1, **options)
-
-
-def _dither() -> "Dither":
-    from PIL.Image import Dither
-
-    return Dither.FLOYDSTEINBERG
 
 
 def _pictures(frames: Iterable[Codes]) -> Iterator["Picture"]:

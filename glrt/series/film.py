@@ -16,19 +16,19 @@ from glrt.scene.animation.tracks import Animation
 from glrt.scene.scenefile.toml import scene_to_dict
 from glrt.series.containers import write_container
 from glrt.series.outputs import Output
-from glrt.series.rendering import Frame, Watch, Wishes, render_frames
+from glrt.series.rendering import Frame, RenderOptions, Watch, render_frames
 from glrt.series.series import Series, describe
 from glrt.series.sheet import Cell, write_sheet
 
 
 @dataclass
 class Film:
-    """A series to render, its files, and the frames as they come to stand."""
+    """A series to render, its files, and the frames that are done."""
 
     series: Series
     numbers: range  # frames to render
     output: Output
-    wishes: Wishes
+    options: RenderOptions
     own_fps: float | None = None
     frames: list[Frame] = field(default_factory=list)
 
@@ -38,7 +38,7 @@ class Film:
         return self.own_fps or (self.series.scene.animation or Animation()).fps
 
     @property
-    def standing(self) -> list[Frame]:
+    def complete(self) -> list[Frame]:
         """The frames that did not fail."""
         return [frame for frame in self.frames if frame.record]
 
@@ -49,7 +49,7 @@ class Film:
 
     @property
     def missed(self) -> list[Frame]:
-        """The frames that stand, but did not reach their error."""
+        """The complete frames that did not reach their error."""
         return [frame for frame in self.frames if frame.is_missed]
 
     @property
@@ -61,13 +61,13 @@ class Film:
             "settings": self.series.settings.model_dump(mode="json"),
             "frames": [self.numbers.start, self.numbers.stop - 1],
             "fps": self.fps,
-            **dict(describe(self.series)),
+            **describe(self.series),
         }
         return json.dumps(film, allow_nan=False)
 
     def render(self, interruption: Interruption, watch: Watch | None = None) -> Iterator[Frame]:
-        """Render the frames that are missing; yields each as it stands, as `render_frames`."""
-        rest = self.wishes, interruption, watch
+        """Render the frames that are missing; yields each, as `render_frames` does."""
+        rest = self.options, interruption, watch
         for frame in render_frames(self.series, self.numbers, self.output, *rest):
             self.frames.append(frame)
             yield frame

@@ -16,7 +16,7 @@ _OF_DISPLAY = ("exposure", "tonemap")  # settings that an .exr does not hold
 
 
 def kept(file: Path, still: Still, limits: FrameLimits) -> FrameLimits | None:
-    """Return the record of a frame that stands whole with this scene, settings and limits.
+    """Return the record of a complete frame with this scene, settings and limits.
 
     None if the file is missing or damaged, or holds another picture.
     """

@@ -26,7 +26,7 @@ Watched = Callable[[Renderer], None]
 
 
 @dataclass(frozen=True)
-class Wishes:
+class RenderOptions:
     """How each frame is rendered."""
 
     seconds: float | None = None  # limit of a frame's render
@@ -46,7 +46,7 @@ class Wishes:
 
 
 class Frame(NamedTuple):
-    """A frame that stands, or that failed."""
+    """A frame that is complete, or that failed."""
 
     number: int
     file: Path
@@ -59,16 +59,16 @@ class Frame(NamedTuple):
 
     @property
     def is_missed(self) -> bool:
-        """Whether the frame stands, but did not reach its error."""
+        """Whether the frame is complete, but did not reach its error."""
         return self.record is not None and not self.record.reached
 
 
-class Camerawork:
+class FrameRenderer:
     """Renders one still after another; what fits the next one is kept: program, trees, film."""
 
-    def __init__(self, wishes: Wishes, interruption: Interruption) -> None:
+    def __init__(self, options: RenderOptions, interruption: Interruption) -> None:
         """Open nothing yet."""
-        self._wishes = wishes
+        self._options = options
         self._interruption = interruption
         self._renderer: Renderer | None = None
         self._tier: Tier = "generic"
@@ -93,36 +93,36 @@ class Camerawork:
             self._renderer.restart()
             return self._renderer
         self.release()
-        wishes = self._wishes
+        options = self._options
         self._tier = tier
         self._renderer = Renderer(
-            *(still.scene, still.settings, wishes.context, tier, wishes.pipeline),
-            decisions=wishes.decisions,
+            *(still.scene, still.settings, options.context, tier, options.pipeline),
+            decisions=options.decisions,
         )
         return self._renderer
 
     def frame(
         self, series: Series, number: int, output: Output, watch: Watch | None
     ) -> Frame | None:
-        """Return a frame as it stands; None if interrupted before its limit.
+        """Return a frame, kept or rendered or failed; None if interrupted before its limit.
 
         Raises `RenderError` if its file cannot be written.
         """
-        start, file, wishes = time.perf_counter(), output.frame(number), self._wishes
+        start, file, options = time.perf_counter(), output.frame(number), self._options
         try:
             still = series.still(number)
-            if record := kept(file, still, wishes.of(number)):
+            if record := kept(file, still, options.of(number)):
                 return Frame(number, file, still.label, record)
-            limits = wishes.limits(still)
+            limits = options.limits(still)
             watched = (lambda renderer: watch(number, limits, renderer)) if watch else None
             image = self.render(still, limits, watched)
         except (SceneError, RenderError) as error:
             return Frame(number, file, failure=str(error))
         if image is None:
             return None
-        record = wishes.of(number)
+        record = options.of(number)
         reached = image.error_to_reach
-        if wishes.error is not None and (reached is None or reached > wishes.error):
+        if options.error is not None and (reached is None or reached > options.error):
             record = record.model_copy(update={"reached": False})
         if image.recipe:
             image = replace(image, recipe=image.recipe.model_copy(update={"frame": record}))
@@ -146,17 +146,17 @@ def render_frames(
     series: Series,
     numbers: Iterable[int],
     output: Output,
-    wishes: Wishes,
+    options: RenderOptions,
     interruption: Interruption,
     watch: Watch | None = None,
 ) -> Iterator[Frame]:
-    """Yield the frames, each as it stands: kept from before, rendered and saved now, or failed.
+    """Yield the frames: each was kept from before, is rendered and saved now, or failed.
 
     `watch` is called with the number of the frame and its limits after each dispatch. An
     interruption ends the series after the frames that are complete. Raises `RenderError` if a file
     cannot be written.
     """
-    work = Camerawork(wishes, interruption)
+    work = FrameRenderer(options, interruption)
     try:
         for number in numbers:
             if interruption.signal is not None:

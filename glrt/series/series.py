@@ -2,9 +2,8 @@
 
 import itertools
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any, Literal, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -16,7 +15,6 @@ from glrt.scene.shapes.box import sine_and_cosine
 from glrt.series.sweeps import SETTINGS, Sweep, setting_changes
 from glrt.settings import Settings, settings_for
 
-Kind = Literal["animation", "turntable", "sweep"]
 TURN = 360.0  # degrees
 SEEDS = 1 << 32
 
@@ -47,13 +45,6 @@ class Series:
         """List the steps of all sweeps."""
         steps = itertools.product(*(range(sweep.steps) for sweep in self.sweeps))
         object.__setattr__(self, "steps", tuple(steps) if self.sweeps else ())
-
-    @property
-    def kind(self) -> Kind:
-        """The kind of change from frame to frame."""
-        if self.sweeps:
-            return "sweep"
-        return "animation" if self.turns is None else "turntable"
 
     @property
     def count(self) -> int:
@@ -127,11 +118,11 @@ def turned(camera: Camera, degrees: float) -> Camera:
     return camera.model_copy(update={"position": (x, y, z)})
 
 
-def describe(series: Series) -> Sequence[tuple[str, Any]]:
-    """Return what makes the series, as keys and plain values for the recipe of a film."""
-    if series.kind == "turntable":
-        return [("turntable", series.turns)]
-    if series.kind == "sweep":
+def describe(series: Series) -> dict[str, Any]:
+    """Return what makes the series, as plain values for the recipe of a film."""
+    if series.sweeps:
         rows = [[s.name, list(s.start), list(s.end), s.steps] for s in series.sweeps]
-        return [("sweep", rows)]
-    return [("animation", series.count)]
+        return {"sweep": rows}
+    if series.turns is not None:
+        return {"turntable": series.turns}
+    return {"animation": series.count}

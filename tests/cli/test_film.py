@@ -222,7 +222,7 @@ sys.exit(main())
         [sys.executable, "-c", command, *words], capture_output=True, text=True, timeout=250
     )
     assert done.returncode == 130
-    assert "interrupted; 1 of 4 frames stand: the same command goes on" in done.stderr
+    assert "interrupted; 1 of 4 frames are done: the same command continues" in done.stderr
     assert not (tmp_path / "film.gif").exists()
     assert (tmp_path / "film.gif.frames" / "0000.exr").exists()
 

@@ -41,6 +41,10 @@ BAD: dict[str, tuple[Callable[[Path], tuple[str, ...]], str]] = {
     "fps": (lambda path: ("-o", "a.gif", "--fps", "0"), "--fps must be above 0"),
     "turns": (lambda path: ("-o", "a.gif", "--turntable", "0"), "is not a number of frames"),
     "sweep": (lambda path: ("-o", "a.gif", "--sweep", "camera.fov=1"), "is not KEY=FROM:TO:N"),
+    "a job without a file": (
+        lambda path: ("-o", "%d.exr", "--export", "sh"),
+        "--export needs a scene file: tasks have no standard input",
+    ),
     "a job of a film": (
         lambda path: ("-o", "a.gif", "--export", "sh"),
         "--export needs -o with a place for the number",
@@ -57,7 +61,8 @@ def test_wrong_usage_is_refused_before_anything_is_rendered(
     scene: Path, tmp_path: Path, case: str
 ) -> None:
     make, words = BAD[case]
-    done = glrt("film", scene, *make(tmp_path), cwd=tmp_path)
+    source = "-" if case == "a job without a file" else scene
+    done = glrt("film", source, *make(tmp_path), cwd=tmp_path)
     assert done.returncode == 2
     assert words in done.stderr
     assert "Traceback" not in done.stderr

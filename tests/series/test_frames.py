@@ -10,7 +10,7 @@ from glrt.rendering.renderer import Renderer
 from glrt.rendering.stopping import Interruption
 from glrt.scene.camera import Camera
 from glrt.scene.scenefile.toml import parse_scene
-from glrt.series.rendering import Camerawork, Wishes
+from glrt.series.rendering import FrameRenderer, RenderOptions
 from glrt.series.series import Series, chosen, turned
 from glrt.series.sweeps import parse_sweep
 from glrt.settings import Settings
@@ -45,11 +45,11 @@ def test_a_frame_has_the_bits_of_a_still_with_its_values(context: Context) -> No
     expected = own.render().image().radiance
     own.release()
     series = Series(scene, SMALL)
-    work = Camerawork(Wishes(context=context), Interruption())
+    work = FrameRenderer(RenderOptions(context=context), Interruption())
     found = []
     for number in (0, 1, 2, 4, 2):
         frame = series.still(number)
-        image = work.render(frame, Wishes().limits(frame))
+        image = work.render(frame, RenderOptions().limits(frame))
         assert image
         found.append(image.radiance)
     work.release()

@@ -1,6 +1,7 @@
 """Quaternions (x, y, z, w), the angles that turn as they do, and what lies between two."""
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,9 +29,11 @@ def slerp(start: Array, end: Array, share: float) -> Array:
     return unit(math.sin((1 - share) * angle) * start + math.sin(share * angle) * end)
 
 
-def matrix(quaternion: Array) -> Array:
-    """Return the matrix, (3, 3), that turns columns as a quaternion does."""
-    x, y, z, w = (float(part) for part in unit(quaternion))
+def matrix(quaternion: Sequence[float] | Array) -> Array:
+    """Return the matrix, (3, 3), that turns columns as a quaternion, (4,), of any length does."""
+    x, y, z, w = (float(part) for part in quaternion)
+    length = (x * x + y * y + z * z + w * w) ** 0.5
+    x, y, z, w = (part / length for part in (x, y, z, w))
     return np.array(
         [
             [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],

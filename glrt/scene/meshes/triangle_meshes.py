@@ -1,7 +1,8 @@
 """Triangle meshes as arrays: with normals, and whether they enclose a volume."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Protocol
 
 import numpy as np
@@ -15,6 +16,7 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 MOST_TRIANGLES = 4_000_000  # triangles in a scene
+MOST_KEPT = 8  # forms of a mesh that are kept: objects of one file may differ in them
 NO_MATERIAL = "without material"  # name for triangles without one, in a file with materials
 
 
@@ -141,13 +143,11 @@ class TriangleMesh:
         Given normals are kept. The rest follows smoothing groups, or in a format without them the
         angle between triangles: beyond it an edge is sharp.
         """
-        if degrees not in self._creased:
-            self._creased[degrees] = self._divided(degrees)
-        return self._creased[degrees]
+        return self._creased(degrees)
 
     @cached_property
-    def _creased(self) -> dict[float, "TriangleMesh"]:
-        return {}
+    def _creased(self) -> Callable[[float], "TriangleMesh"]:
+        return lru_cache(MOST_KEPT)(self._divided)
 
     def _divided(self, degrees: float) -> "TriangleMesh":
         if self.normals is not None and self.normals.any(axis=1).all():

@@ -41,7 +41,7 @@ def decode_mesh(content: bytes, path: str, where: str, fetch: Fetch | None = Non
             warnings.simplefilter("ignore")  # of arithmetic with NaN, which is found below
             if suffix in GLTF:
                 return _of_gltf(Document(content, fetch or _alone))
-            return _READERS[suffix](content)
+            return of_file(*_READERS[suffix](content))
     except SceneError:
         raise  # of a file next to it
     except NotInstalledError as error:
@@ -65,19 +65,7 @@ def _of_gltf(document: Document) -> TriangleMesh:
     return replace(mesh_of(document), poses=poses)
 
 
-def _of_obj(content: bytes) -> TriangleMesh:
-    return of_file(*read_obj(content))
-
-
-def _of_ply(content: bytes) -> TriangleMesh:
-    return of_file(*read_ply(content))
-
-
-def _of_stl(content: bytes) -> TriangleMesh:
-    return of_file(read_stl(content))
-
-
-_READERS = {".obj": _of_obj, ".ply": _of_ply, ".stl": _of_stl}
+_READERS = {".obj": read_obj, ".ply": read_ply, ".stl": read_stl}
 
 
 def _reason(error: Exception) -> str:

@@ -19,8 +19,8 @@ _HEADER, _COUNT, _LOOK = 80, 4, 1000  # bytes
 _VERTEX = re.compile(r"\bvertex\s+(\S+\s+\S+\s+\S+)", re.IGNORECASE)
 
 
-def read_stl(content: bytes) -> MeshArrays:
-    """Return the mesh of an STL file; ValueError says what is wrong.
+def read_stl(content: bytes) -> tuple[MeshArrays, tuple[str, ...]]:
+    """Return the mesh of an STL file, and what is left out: nothing. ValueError says what is wrong.
 
     Facets in one place share vertices. Bytes behind the last facet are ignored.
     """
@@ -29,7 +29,7 @@ def read_stl(content: bytes) -> MeshArrays:
         corners = _text(content)
     points = corners.reshape(-1, 3).astype(np.float64)
     faces = places(points).reshape(-1, 3)
-    return MeshArrays(points, faces, groups=np.zeros(len(faces), np.int64))
+    return MeshArrays(points, faces, groups=np.zeros(len(faces), np.int64)), ()
 
 
 def _binary(content: bytes) -> np.ndarray[Any, Any] | None:

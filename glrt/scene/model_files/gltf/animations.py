@@ -1,6 +1,7 @@
 """Animations of a glTF file: nodes, skins and morph targets at a moment."""
 
 from collections.abc import Mapping
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -8,7 +9,7 @@ import numpy as np
 from glrt.core.text import unknown
 from glrt.scene.animation.interpolation import between, hermite
 from glrt.scene.animation.rotations import unit
-from glrt.scene.meshes.triangle_meshes import TriangleMesh
+from glrt.scene.meshes.triangle_meshes import MOST_KEPT, TriangleMesh
 from glrt.scene.model_files.gltf.accessors import Floats, floats
 from glrt.scene.model_files.gltf.document import Document
 from glrt.scene.model_files.gltf.primitives import mesh_of
@@ -67,7 +68,7 @@ class Poses:
             self._channels[name if usable and name else str(number)] = _channels(
                 document, table, here
             )
-        self._last: tuple[str, float, TriangleMesh] | None = None
+        self._posed = lru_cache(MOST_KEPT)(self._pose)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -91,10 +92,10 @@ class Poses:
         name = self.usual if name is None else name
         if name not in self._channels:
             raise ValueError(unknown("animation", name, self.names, "The file has"))
-        if self._last is None or self._last[:2] != (name, moment):
-            mesh = mesh_of(self._document, self._changes(name, moment)).outward
-            self._last = name, moment, mesh
-        return self._last[2]
+        return self._posed(name, moment)
+
+    def _pose(self, name: str, moment: float) -> TriangleMesh:
+        return mesh_of(self._document, self._changes(name, moment)).outward
 
     def _changes(self, name: str, moment: float) -> Mapping[int, Mapping[str, Any]]:
         """Return the values of nodes that move, by number of the node and by key."""

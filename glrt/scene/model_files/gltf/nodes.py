@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from glrt.scene.animation.rotations import matrix
 from glrt.scene.model_files.gltf.document import Document, numbers
 
 Matrix = NDArray[np.float64]  # (4, 4)
@@ -65,19 +66,10 @@ def _matrix(node: dict[str, Any], here: str) -> Matrix:
     if "matrix" in node:  # column by column
         return np.array(numbers(node["matrix"], 16, f"{here}.matrix")).reshape(4, 4).T
     move = numbers(node.get("translation", [0, 0, 0]), 3, f"{here}.translation")
-    x, y, z, w = numbers(node.get("rotation", [0, 0, 0, 1]), 4, f"{here}.rotation")
+    turn = numbers(node.get("rotation", [0, 0, 0, 1]), 4, f"{here}.rotation")
     scale = numbers(node.get("scale", [1, 1, 1]), 3, f"{here}.scale")
-    length = (x * x + y * y + z * z + w * w) ** 0.5
-    if length == 0:
+    if not any(turn):
         raise ValueError(f"{here}.rotation must not be zero")
-    x, y, z, w = (value / length for value in (x, y, z, w))
-    turned = np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-        ]
-    )
     found = np.eye(4)
-    found[:3, :3], found[:3, 3] = turned * np.array(scale), move
+    found[:3, :3], found[:3, 3] = matrix(turn) * np.array(scale), move
     return found
