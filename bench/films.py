@@ -23,7 +23,7 @@ from glrt.settings import settings_for
 
 FILMS = {  # what moves, by scene
     "cradle": "animation",
-    "cornell": "turntable",
+    "spot": "turntable",
     "lens": "turntable",
     "weekend": "turntable",
     "metals": "camera.fov=25:40:8",

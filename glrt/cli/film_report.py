@@ -65,7 +65,7 @@ class Reporter:
         return f"; {left * float(np.median(times)):.0f} s to go" if left else ""
 
     def summarize(self) -> None:
-        """Print the figures of the film."""
+        """Print the figures of the film, and a caution about frames that are black."""
         film, new = self._film, sum(frame.samples > 0 for frame in self._film.frames)
         name, count = str(film.output.path), len(film.frames)
         width, height = film.series.settings.size
@@ -80,6 +80,9 @@ class Reporter:
                 f"{new or 'none'} of them rendered now, in {seconds:.1f} s.",
                 file=sys.stderr,
             )
+            if black := [frame for frame in film.frames if frame.is_black]:
+                text = f"{named(black)}: all is black. Does a wall stand before the camera?"
+                print(f"glrt: caution: {text}", file=sys.stderr)
 
 
 def named(frames: Sequence[Frame]) -> str:

@@ -56,6 +56,7 @@ class Frame(NamedTuple):
     samples: int = 0  # of a pixel, rendered now; 0: it was kept from before, or failed
     error: float | None = None  # estimate, if it was rendered now and has one
     seconds: float = 0.0
+    is_black: bool = False  # whether no light reached the camera, if it was rendered now
 
     @property
     def is_missed(self) -> bool:
@@ -127,8 +128,9 @@ class FrameRenderer:
         if image.recipe:
             image = replace(image, recipe=image.recipe.model_copy(update={"frame": record}))
         image.save(file)
-        seconds = time.perf_counter() - start
-        return Frame(number, file, still.label, record, "", image.samples, image.error, seconds)
+        seconds, is_black = time.perf_counter() - start, not image.radiance.any()
+        figures = image.samples, image.error, seconds, is_black
+        return Frame(number, file, still.label, record, "", *figures)
 
     def release(self) -> None:
         """Release OpenGL."""

@@ -227,6 +227,13 @@ sys.exit(main())
     assert (tmp_path / "film.gif.frames" / "0000.exr").exists()
 
 
+def test_black_frames_are_named(tmp_path: Path) -> None:
+    """The camera of this room turns out of it, behind its walls."""
+    done = glrt("film", "cornell", "-o", tmp_path / "a.gif", "--turntable", "3", *SMALL)
+    assert done.returncode == 0
+    assert "caution: frames 1, 2: all is black" in done.stderr
+
+
 def test_a_frame_that_misses_its_error_is_named(scene: Path, tmp_path: Path) -> None:
     output = tmp_path / "%d.exr"
     limits = ("--width", "24", "--height", "16", "--samples", "64", "--frames", "0-1")

@@ -115,14 +115,10 @@ def test_a_skin_bends_as_its_joint_turns(share: float) -> None:
     first = builder.add("nodes", {"children": [second]})
     bound = np.tile(np.eye(4), (2, 1, 1))
     bound[1, :3, 3] = -elbow
-    rows = builder.accessor(bound.transpose(0, 2, 1).reshape(2, 16)[:, :4])
-    content = bound.transpose(0, 2, 1).astype("<f4").tobytes()
-    builder.json["accessors"][rows] = {
-        "bufferView": builder.view(content),
-        "componentType": 5126,
-        "type": "MAT4",
-        "count": 2,
-    }
+    view = builder.view(bound.transpose(0, 2, 1).astype("<f4").tobytes())
+    table = {"bufferView": view, "componentType": 5126, "type": "MAT4", "count": 2}
+    builder.json["accessors"].append(table)
+    rows = len(builder.json["accessors"]) - 1
     builder.add("skins", {"joints": [first, second], "inverseBindMatrices": rows})
     builder.shown(primitive, skin=0)
     animated(builder, second, "rotation", [0.0, 1.0], [[0, 0, 0, 1], [0, 0, HALF, HALF]])
