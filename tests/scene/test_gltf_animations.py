@@ -238,18 +238,20 @@ def test_a_model_is_rendered_in_its_pose_unless_a_frame_is_named(
     assert found["pose"] != found["start"]
 
 
-def test_a_moment_that_a_file_lacks_is_refused(model: Path, tmp_path: Path) -> None:
+@pytest.mark.parametrize("material", ["", 'material = "m",'])
+def test_a_moment_that_a_file_lacks_is_refused(model: Path, tmp_path: Path, material: str) -> None:
     builder = Builder()
     builder.shown(square(builder))
     (tmp_path / "still.glb").write_bytes(builder.glb())
     text = """
     camera = { position = [0, 0, 5], look_at = [0, 0, 0] }
     background = { color = [1, 1, 1] }
-    objects = [{ shape = "mesh", file = "FILE", time = 1.0, animation = "NAME" }]
+    materials.m = { type = "lambertian", color = [1, 1, 1] }
+    objects = [{ shape = "mesh", file = "FILE", MATERIAL time = 1.0, animation = "NAME" }]
     """
     for name, words in (("still.glb", "has no animation: leave `time` out"), (model.name, "NAME")):
         path = tmp_path / "scene.toml"
-        path.write_text(text.replace("FILE", name))
+        path.write_text(text.replace("FILE", name).replace("MATERIAL", material))
         with pytest.raises(glrt.SceneError, match=words) as refused:
             load(path)
         assert "objects[0].file" in str(refused.value)

@@ -101,7 +101,7 @@ class Track(Value):
 
     @model_validator(mode="after")
     def _has_keys(self) -> Self:
-        self.keys  # noqa: B018 (raises ValueError for a target that is none)
+        parse_target(self.target)
         if len(self.times) != len(self.values):
             raise ValueError(
                 f"has {len(self.times)} times and {len(self.values)} values; give one value for "

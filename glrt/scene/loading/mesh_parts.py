@@ -118,10 +118,10 @@ def _names(shape: Mesh, where: str, may_lack: bool) -> list[str]:
 def part_problem(shape: Mesh) -> str:
     """Return what is wrong with an object's part, or its moment; empty if nothing is."""
     try:
-        shape.triangles_of_file  # noqa: B018 (raises ValueError for a moment that the file lacks)
+        mesh = shape.triangles_of_file
     except ValueError as error:
         return str(error)
-    names = shape.triangles_of_file.parts if shape.part is not None else {}
+    names = mesh.parts if shape.part is not None else {}
     if shape.part is None or shape.part in names:
         return ""
     if not names:
