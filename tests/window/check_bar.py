@@ -6,7 +6,7 @@ from imgui_bundle import imgui
 
 from tests.window.check_layout import resized
 from tests.window.check_newcomer import SMALLEST
-from tests.window.gestures import ball, press, retype
+from tests.window.gestures import ball, press, retype, scroll_to
 from tests.window.hand import Hand, check
 
 PANEL = "//Controls"
@@ -99,8 +99,7 @@ def keys_that_move_in_the_panel_go_to_no_row_under_the_bar(hand: Hand) -> None:
 def a_problem_is_reported_wherever_the_panel_is(hand: Hand) -> None:
     """It pushes the rows down; the one in use stays, and so does the panel's place."""
     ctx = hand.ctx
-    ctx.scroll_to_item_y(f"{PANEL}/tonemap")
-    ctx.yield_(3)
+    scroll_to(hand, f"{PANEL}/tonemap")
     ctx.item_click(f"{PANEL}/tonemap")
     ctx.yield_(2)
     press(hand, imgui.Key.escape)

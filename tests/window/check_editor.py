@@ -19,6 +19,7 @@ from tests.window.gestures import (
     press,
     reopen,
     retype,
+    scroll_to,
     type_name,
 )
 from tests.window.hand import Hand, check
@@ -133,10 +134,8 @@ def a_widget_stays_where_it_is_when_rows_come_and_go(hand: Hand) -> None:
     session, ctx = hand.session, hand.ctx
     _, shape = ball(hand)
     click(hand, shape.center)
-    ctx.yield_(3)
     widget = f"//Controls/type##material {shape.material}"
-    ctx.scroll_to_item_y(widget)
-    ctx.yield_(3)
+    scroll_to(hand, widget)
     for kind in ("light", "dielectric", "principled", "lambertian"):
         before = ctx.item_info(widget).rect_full.min.y
         retype(hand, shape.material, kind)

@@ -115,6 +115,14 @@ def add(hand: Hand, kind: str) -> None:
     hand.ctx.yield_(3)
 
 
+def scroll_to(hand: Hand, item: str) -> None:
+    """An item of a panel into view, once no rows come or go: the engine gives up on a panel that
+    shrinks while it scrolls."""
+    hand.settle()
+    hand.ctx.scroll_to_item_y(item)
+    hand.ctx.yield_(3)
+
+
 def retype(hand: Hand, material: str, kind: str) -> None:
     """Another type of a material of the selected object."""
     hand.ctx.set_ref("Controls")
