@@ -39,7 +39,7 @@
 #include "film/layers.glsl"
 #include "integrators/camera.glsl"
 #include "integrators/classic.glsl"
-#include "integrators/media.glsl"
+#include "integrators/glasses.glsl"
 #include "integrators/shading_normals.glsl"
 #include "integrators/glossy_turns.glsl"
 #include "integrators/particle_weights.glsl"

@@ -112,7 +112,7 @@ def pack_frame(
     `counts` are the numbers of rows by struct. `tree` is the BVH of the scene. `sky_density` is the
     density of samples of the sky image, as sky_table.py computes it.
     """
-    scene, settings, medium = plan.scene, plan.settings, plan.facts.camera_medium
+    scene, settings, glass = plan.scene, plan.settings, plan.facts.camera_glass
     bottom, *horizon, top = scene.background_colors
     frame = {
         "camera": pack_camera(scene.camera, settings.width / settings.height),
@@ -125,8 +125,8 @@ def pack_frame(
         "sun_radiance": scene.sun_radiance,
         **particle_fields(plan),
         **probe_fields(plan.grid, scene.camera),
-        "camera_absorption": medium.absorption,
-        "camera_counts": medium.counts,
+        "camera_absorption": glass.absorption,
+        "camera_counts": glass.counts,
         "sky_density": sky_density,
         "background_turn": (scene.background.rotation or 0.0) / 360 % 1.0,
         "seed": settings.seed,

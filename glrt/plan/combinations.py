@@ -212,7 +212,7 @@ def _refusals(facts: SceneFacts, settings: Settings) -> Iterator[str]:
         yield "some surfaces have holes, which particles do not follow yet"
     if _shines_in_tinted_glass(facts) or _sun_shines_in_it(facts):
         yield "a lamp, sun or sky is in tinted glass or one with a priority: none starts there"
-    if facts.camera_medium.counts:
+    if facts.camera_glass.counts:
         yield "the camera is in glass with a priority, where nothing is linked to it"
 
 

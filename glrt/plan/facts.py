@@ -127,7 +127,7 @@ class SceneFacts:
         return glasses_of(self.scene, self.finishes)
 
     @cached_property
-    def camera_medium(self) -> Around:
+    def camera_glass(self) -> Around:
         """The glass around the camera."""
         return around_camera(self.scene, self.glasses)
 
@@ -239,7 +239,7 @@ class SceneFacts:
         return self._glasses(lambda glass: any(glass.absorption))
 
     @property
-    def media(self) -> list[str]:
+    def nested(self) -> list[str]:
         """Names of the glasses with a priority."""
         return self._glasses(lambda glass: glass.priority is not None)
 

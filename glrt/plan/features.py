@@ -136,8 +136,8 @@ class Needs:
     )
     has_pane: bool = _followed("thin glass", "panes", lambda it: it.panes)
     has_attenuation: bool = _followed("tinted glass", "attenuation", lambda it: it.tinted)
-    has_nested: bool = _followed("glass with priority", "nested glass", lambda it: it.media)
-    media: int = _row(lambda it: len(it.facts.media) if it.traits.follows else 0, most=0)
+    has_nested: bool = _followed("glass with priority", "nested glass", lambda it: it.nested)
+    nested_glasses: int = _row(lambda it: len(it.facts.nested) if it.traits.follows else 0, most=0)
     has_lens: bool = _row(
         lambda it: it.traits.has_lens and it.scene.camera.defocus_angle > 0, "lens", reasons.lens
     )

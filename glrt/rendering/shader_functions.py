@@ -118,8 +118,8 @@ def _choice(found: SceneFacts) -> dict[str, bool | int]:
         "HAS_COAT": bool(found.coated),
         "HAS_ROUGH_GLASS": bool(found.rough_glasses),
         "HAS_ATTENUATION": bool(found.tinted),
-        "HAS_NESTED": bool(found.media),
-        "MEDIA": len(found.media),
+        "HAS_NESTED": bool(found.nested),
+        "NESTED_GLASSES": len(found.nested),
     }
 
 

@@ -41,7 +41,7 @@ def _rank(glass: Dielectric) -> tuple[bool, int]:
     return glass.priority is None, -(glass.priority or 0)
 
 
-def media_of(glasses: dict[str, Dielectric]) -> list[str]:
+def nested_of(glasses: dict[str, Dielectric]) -> list[str]:
     """Return the names of those glasses of `glasses_of` with a priority."""
     return [name for name, glass in glasses.items() if glass.priority is not None]
 
@@ -56,9 +56,9 @@ def around_camera(scene: Scene, glasses: dict[str, Dielectric]) -> Around:
         return AIR
     point = np.array(scene.camera.position, np.float64)
     inside = [it for it in scene.visible if it.material in glasses and it.holds(point)]
-    media = media_of(glasses)
-    counts = [sum(it.material == name for it in inside) for name in media]
-    there = [name for name, count in zip(media, counts, strict=True) if count]
+    ranked = nested_of(glasses)
+    counts = [sum(it.material == name for it in inside) for name in ranked]
+    there = [name for name, count in zip(ranked, counts, strict=True) if count]
     there += [it.material for it in sorted(inside, key=lambda it: it.reach)]
     absorption = glasses[there[0]].absorption if there else BLACK
     return Around(absorption, sum(count << BITS * k for k, count in enumerate(counts)))

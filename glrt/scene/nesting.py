@@ -10,7 +10,7 @@ from glrt.scene.materials.kinds import Material
 from glrt.scene.schema.validation import Place
 from glrt.scene.shapes.kinds import Shape
 
-MOST_MEDIA = 6  # glasses with a priority in a scene: the kernel counts them in one word
+MOST_GLASSES = 6  # glasses with a priority in a scene: the kernel counts them in one word
 BITS = 5  # BITS_OF_COUNT of the kernel
 MOST_NESTED = (1 << BITS) - 1  # objects of one such glass that may overlap
 _COMPARED = 4096  # objects of one glass that are compared
@@ -21,10 +21,10 @@ def nesting_problems(
 ) -> Iterator[tuple[Place, str]]:
     """Yield what does not fit: too many glasses with a priority, or too many that overlap."""
     used = dict.fromkeys(shape.material for shape in shapes)
-    media = [name for name in used if _priority(materials.get(name)) is not None]
-    if len(media) > MOST_MEDIA:
-        yield ("materials", media[MOST_MEDIA], "priority"), _TOO_MANY.format(len(media))
-    for name in media:
+    ranked = [name for name in used if _priority(materials.get(name)) is not None]
+    if len(ranked) > MOST_GLASSES:
+        yield ("materials", ranked[MOST_GLASSES], "priority"), _TOO_MANY.format(len(ranked))
+    for name in ranked:
         same = [shape for shape in shapes if shape.material == name]
         deepest = _neighbours(same) if len(same) > MOST_NESTED else 0
         if deepest >= MOST_NESTED:
@@ -41,7 +41,7 @@ def _priority(material: Material | None) -> int | None:
 
 _TOO_MANY = (
     "{} materials with a priority are used, and "
-    f"{MOST_MEDIA} can be; leave the priority out where glass does not overlap"
+    f"{MOST_GLASSES} can be; leave the priority out where glass does not overlap"
 )
 
 

@@ -18,9 +18,9 @@ Material part_met(Material material, inout Sampler rng) {
 // Absorption per unit length behind a surface; `enters`: whether the inside of the object lies behind it.
 vec3 absorption_behind(Path path, Material material, bool enters) {
     if (!HAS_ATTENUATION) return vec3(0.0);
-    if (is_medium(material)) {
+    if (is_nested(material)) {
         uint counts = counts_beyond(path.counts, material.details, enters);
-        return absorption_of_glass(medium_of(counts));
+        return absorption_of_glass(glass_around(counts));
     }
     if (material.kind != DIELECTRIC) return path.absorption;
     return enters ? absorption_of_glass(material.details) : vec3(0.0);
@@ -36,9 +36,9 @@ Meeting meet(Path path, Surface surface, Material material, bool by_shading) {
     mat3 frame = by_shading ? shading_frame(facing, shading, direction) : frame_around(facing);
     Vertex vertex = vertex_of(frame, to_local(frame, -direction), material, side > 0.0);
     uint beyond = path.counts;
-    if (is_medium(material)) {
+    if (is_nested(material)) {
         beyond = counts_beyond(path.counts, material.details, side > 0.0);
-        vertex.eta = ior_of_medium(path.counts) / ior_of_medium(beyond);
+        vertex.eta = ior_around(path.counts) / ior_around(beyond);
     }
     vec3 behind = absorption_behind(path, material, side > 0.0);
     Ray ray = Ray(surface.position, direction, surface.shape, side < 0.0);
@@ -59,16 +59,16 @@ void leave(inout Path path, Meeting at, Scattering next) {
 // Takes the light away that a segment of length `distance` loses. A segment that meets glass from inside lay in it.
 void absorb(inout Path path, Material material, bool is_inside, float distance) {
     if (!HAS_ATTENUATION) return;
-    bool is_glass = material.kind == DIELECTRIC && !is_medium(material);
+    bool is_glass = material.kind == DIELECTRIC && !is_nested(material);
     if (is_glass && is_inside) path.absorption = absorption_of_glass(material.details);
     path.throughput *= share_left(path.absorption, distance);
 }
 
 // Whether a surface of glass lies in another glass that stays around the path: then the surface has no effect.
 bool is_within_other_glass(Path path, Material material, bool enters) {
-    if (!is_medium(material)) return false;
+    if (!is_nested(material)) return false;
     uint beyond = counts_beyond(path.counts, material.details, enters);
-    return medium_of(beyond) == medium_of(path.counts);
+    return glass_around(beyond) == glass_around(path.counts);
 }
 
 // The path goes on through such a surface. No sampled light has passed it, so pdf is 0.

@@ -114,10 +114,10 @@ def test_the_glass_around_the_camera_is_the_highest_or_else_the_smallest() -> No
     ranked = {f"{radius}": tinted(np.exp(-radius), priority=radius) for radius in (1, 2, 3)}
     for materials, most, counts in ((plain, 1, 0), (ranked, 3, 1 | 1 << 5 | 1 << 10)):
         scene = scene_of(things, materials, {"position": [0, 0, 0.5]})
-        found = SceneFacts(scene).camera_medium
+        found = SceneFacts(scene).camera_glass
         assert found.absorption == pytest.approx([most] * 3)
         assert found.counts == counts
     outside = scene_of(things, ranked, {"position": [0, 0, 2.5]})
-    assert SceneFacts(outside).camera_medium.counts == 1
+    assert SceneFacts(outside).camera_glass.counts == 1
     clear = scene_of([BALL], {"glass": glass(), "floor": MATTE})
     assert glasses_of(clear, clear.finishes) == {}

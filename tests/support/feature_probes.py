@@ -59,9 +59,9 @@ PROBES = {
     "HAS_TRANSMISSION_MAP": ("textures/mapped.glsl", "found.crossed *=", "found.crossed *= {} *"),
     "HAS_HOLE": ("textures/holes.glsl", ">= material.coverage", ">= {} * material.coverage"),
     "HAS_PANE": ("bsdfs/pane.glsl", "2.0 * face /", "{} * face /"),
-    "HAS_ATTENUATION": ("integrators/media.glsl", "absorption * distance", "{} * absorption"),
+    "HAS_ATTENUATION": ("integrators/glasses.glsl", "absorption * distance", "{} * absorption"),
     "HAS_NESTED": (
-        "integrators/media.glsl",
+        "integrators/glasses.glsl",
         "return glass_at(medium).ior",
         "return {} * glass_at(medium).ior",
     ),
