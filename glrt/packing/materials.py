@@ -20,6 +20,7 @@ from glrt.scene.materials.kinds import TYPES
 from glrt.scene.materials.lambertian import Lambertian
 from glrt.scene.materials.light import Light
 from glrt.scene.materials.metal import Metal
+from glrt.scene.materials.nothing import Nothing
 from glrt.scene.materials.principled import Principled
 from glrt.scene.scene import Finish
 
@@ -58,12 +59,19 @@ def pack_principled(row: Any, material: Principled) -> None:
     row["coverage"], row["crossed"] = material.coverage, 1.0
 
 
+def pack_nothing(row: Any, material: Nothing) -> None:
+    """Fill a row for the bounds of a volume."""
+    del material
+    row["kind"] = CONSTANTS["NONE"]
+
+
 PACKERS: dict[type, Callable[[Any, Any], None]] = {
     Lambertian: pack_lambertian,
     Metal: pack_metal,
     Dielectric: pack_dielectric,
     Principled: pack_principled,
     Light: pack_light,
+    Nothing: pack_nothing,
 }
 
 if set(PACKERS) != set(TYPES.values()):

@@ -13,6 +13,7 @@ from glrt.packing.kernel_structs import STRUCTS
 from glrt.packing.lights import lamps_of, pack_aims, pack_clusters, pack_lights
 from glrt.packing.material_details import pack_conductors, pack_facets
 from glrt.packing.materials import pack_emitters, pack_materials
+from glrt.packing.media import medium_row, pack_media
 from glrt.packing.particles import particle_fields
 from glrt.packing.probes import probe_fields
 from glrt.packing.scene_tree import SceneTree, frame_fields, pack_tree
@@ -53,6 +54,7 @@ def pack_scene(
         "Material": pack_materials(facts),
         "Conductor": pack_conductors(facts),
         **pack_facets(facts),
+        **pack_media(facts),
         "Emitter": pack_emitters(facts),
         "Light": pack_lights(lamps, STRUCTS["Light"]),
         "Cluster": pack_clusters(lamps, eye, STRUCTS["Cluster"]),
@@ -138,6 +140,7 @@ def pack_frame(
         "first_tile": dispatch.first_tile,
         "tile_stride": dispatch.tile_stride,
         "is_empty": int(dispatch.is_empty),
+        "camera_medium": medium_row(plan.facts, plan.facts.camera_medium),
         "coincident_reach": _coincident_reach(plan.facts),
         **frame_fields(tree, np.array(scene.camera.position, np.float64)),
     }

@@ -4,6 +4,8 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cached_property
 
+import numpy as np
+
 from glrt.plan.particles import ParticleFacts, is_sampled
 from glrt.scene.coincidence import Coincidence, coincidence_of
 from glrt.scene.glasses import Around, around_camera, glasses_of
@@ -12,11 +14,13 @@ from glrt.scene.materials.base import Opaque
 from glrt.scene.materials.dielectric import Dielectric
 from glrt.scene.materials.kinds import Material, glass_of
 from glrt.scene.materials.metal import Metal
+from glrt.scene.materials.nothing import Nothing
 from glrt.scene.materials.principled import Principled
-from glrt.scene.scene import SKY_GROUP, SUN_GROUP, Finish, Scene
+from glrt.scene.scene import SKY_GROUP, SUN_GROUP, Finish, Scene, media_group
 from glrt.scene.shapes.kinds import KINDS, SAMPLED
 from glrt.scene.shapes.mesh import Mesh
 from glrt.scene.values import Radiance
+from glrt.scene.volumes import Bounds, bounds_of, medium_around
 
 TREE_FROM = 33  # bounded shapes: more than are baked; a BVH pays from here (docs/results/speed.md)
 SPHERES_FROM = 33  # spheres: from here on a BVH of their own is faster
@@ -110,6 +114,9 @@ class SceneFacts:
             material = self.scene.materials[finish.material]
             if finish.group and isinstance(material, Opaque):
                 found.setdefault(finish.group, []).append(material.emission)
+        for name, medium in self.scene.media.items():
+            if medium.emits:
+                found[media_group(name)] = [medium.emission]
         if any(self.scene.sun_irradiance):
             found.setdefault(SUN_GROUP, []).append(self.scene.sun_irradiance)
         if any(map(any, self.scene.background.gradient)):
@@ -130,6 +137,29 @@ class SceneFacts:
     def camera_glass(self) -> Around:
         """The glass around the camera."""
         return around_camera(self.scene, self.glasses)
+
+    @cached_property
+    def bounds(self) -> tuple[Bounds, ...]:
+        """The bounds of volumes, in a scene with media."""
+        shown = set(self.scene.shown)
+        return tuple(it for it in bounds_of(self.scene) if it.number in shown)
+
+    @cached_property
+    def camera_medium(self) -> str | None:
+        """Name of the medium around the camera; None for vacuum."""
+        return medium_around(self.scene, np.array(self.scene.camera.position, np.float64))
+
+    @property
+    def media(self) -> list[str]:
+        """Names of the media that fill an object, or all of space."""
+        used = {self.scene.medium, *(bounds.inside for bounds in self.bounds)}
+        return [name for name in self.scene.media if name in used]
+
+    @property
+    def passed(self) -> list[str]:
+        """Names of the materials that light may pass straight: with holes, or no surface."""
+        own = self.materials.items()
+        return [*self.holed, *(name for name, it in own if isinstance(it, Nothing))]
 
     @cached_property
     def particles(self) -> ParticleFacts:

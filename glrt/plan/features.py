@@ -12,7 +12,7 @@ from glrt.plan.case import Case
 from glrt.plan.facts import MESH, MOST_NEAR, SceneFacts
 from glrt.plan.methods import SPATIAL, TEMPORAL
 from glrt.plan.reasons import Reason, made_of, textured
-from glrt.scene.materials.kinds import TYPES
+from glrt.scene.materials.kinds import TYPES, glass_of
 from glrt.scene.shapes.kinds import KINDS, SAMPLED
 from glrt.settings import Settings
 
@@ -72,7 +72,7 @@ def _followed(kind: str, name: str, names: Callable[[SceneFacts], list[str]]) ->
 
 
 def _types(case: Case) -> frozenset[str]:
-    types = {it.type for it in case.facts.materials.values() if not it.is_transparent}
+    types = {it.type for it in case.facts.materials.values() if not glass_of(it)}
     is_solid = case.traits.follows and case.facts.solid_glasses
     return frozenset(types | ({"dielectric"} if is_solid else set()))
 
@@ -111,7 +111,13 @@ class Needs:
     has_normal_map: bool = _textured("normal maps", "normal")
     has_coverage_map: bool = _textured("textured alpha", "alpha")
     has_transmission_map: bool = _textured("textured transmission", "transmission")
-    has_hole: bool = _made_of("alpha below 1", "holes", lambda it: it.holed)
+    has_hole: bool = _made_of("alpha below 1 or none", "holes", lambda it: it.passed)
+    has_media: bool = _row(  # paths fly through media
+        lambda it: bool(it.facts.media) and not it.traits.model, "media", reasons.media
+    )
+    boundaries: int = _row(  # objects that bound a volume, in a scene with media
+        lambda it: len(it.facts.bounds) if it.facts.media else 0, most=0
+    )
     has_mirror: bool = _row(
         lambda it: (
             it.traits.follows

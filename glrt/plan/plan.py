@@ -218,5 +218,9 @@ def _unlit(scene: Scene) -> Scene:
     sky = scene.background.sky and scene.background.sky.model_copy(update={"scale": 1.0})
     background = scene.background.model_copy(update={"color": None, "sky": sky, **given})
     sun = scene.sun.model_copy(update={"irradiance": ONE}) if scene.sun else None
-    update = {"materials": materials, "lights": {}, "background": background, "sun": sun}
+    media = {
+        name: it.model_copy(update={"emission": ONE}) if it.emits else it
+        for name, it in scene.media.items()
+    }
+    update = {"materials": materials, "media": media, "lights": {}, "background": background, "sun": sun}
     return scene.model_copy(update=update)

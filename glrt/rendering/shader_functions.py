@@ -114,7 +114,9 @@ def _choice(found: SceneFacts) -> dict[str, bool | int]:
         "INSTANCE_BITS": found.instance_bits,
         "HAS_TRANSMISSION": bool(found.transmitting),
         "HAS_MAP": bool(found.mapped),
-        "HAS_HOLE": bool(found.holed),
+        "HAS_HOLE": bool(found.passed),
+        "HAS_MEDIA": bool(found.media),
+        "BOUNDARIES": len(found.bounds) if found.media else 0,
         "HAS_COAT": bool(found.coated),
         "HAS_ROUGH_GLASS": bool(found.rough_glasses),
         "HAS_ATTENUATION": bool(found.tinted),
@@ -130,5 +132,5 @@ def no_rows() -> dict[str, Array]:
         ("Axes", "Uv", "Tangent", "Map", "Maps"),
         ("Emitter", "Light", "Cluster", "Aim", "Target", "Sides"),
     )
-    others = (*trees, *images, "Material", "Conductor", "Glass", "Gloss", "Albedo", *lamps)
+    others = (*trees, *images, "Material", "Conductor", "Glass", "Gloss", "Albedo", "Medium", "Boundary", *lamps)
     return {struct: np.zeros(0, STRUCTS[struct]) for struct in (*NUMBERED, *others)}

@@ -12,10 +12,13 @@ Modules, each importing only what stands above it:
 - lights: background, sun, clear sky, and the cone of a lamp
 - materials: materials, one file for each type
 - model_files: files of models: glTF, OBJ, PLY and STL
+- medium: media between surfaces
 - probes: grid of probes
 - schema: fields of a scene, and their checks
 - frames: a scene with other values in it
 - instancing: meshes that share a BVH
+- crossing_glass: solids that cross, share a face or lie inside each other
+- volumes: media inside and outside of objects
 - loading: loads the files that a scene names
 - nesting: glasses that overlap by priority
 - misfits: parts that do not go together
@@ -26,8 +29,7 @@ Modules, each importing only what stands above it:
 - studio: light and ground for models without light
 - model_scene: scenes of model files
 - scenefile: scene files (TOML), read and written
-- glasses: glasses of a scene, and the medium around its camera
+- glasses: glasses of a scene, and the glass around its camera
 - summary: contents of a scene in words
-- crossing_glass: glass solids that cross, share a face or lie inside each other
 - warnings: warnings about numbers and limits of the model
 """

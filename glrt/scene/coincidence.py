@@ -1,4 +1,4 @@
-"""Flat lamps that lie in the same place as other surfaces, so that rays meet both, up to rounding.
+"""Flat lamps, and bounds of volumes, that lie in the place of other surfaces, up to rounding.
 
 The kernel then decides which one a ray sees (shaders_glsl/shapes/coincident.glsl).
 """
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from glrt.core.memo import kept_for_the_same
 from glrt.scene.materials.kinds import Material
+from glrt.scene.materials.nothing import Nothing
 from glrt.scene.scene import Scene
 from glrt.scene.shapes.flat_polygons import Polygons, joined, polygons_of
 from glrt.scene.shapes.kinds import Shape
@@ -38,7 +39,7 @@ NOWHERE = Coincidence((), (0.0,) * 3, (0.0,) * 3)
 
 
 def coincidence_of(scene: Scene) -> Coincidence:
-    """Find each pair of a lamp and another visible object that overlap in one plane.
+    """Find each pair of a lamp, or bounds of a volume, and another object that share a plane.
 
     Spheres and the walls of cylinders are not compared: they share a circle or a line with other
     shapes, unless they are twins.
@@ -50,9 +51,9 @@ def coincidence_of(scene: Scene) -> Coincidence:
 def _coincidence(
     objects: Sequence[Shape], materials: Mapping[str, Material], shown: Sequence[int]
 ) -> Coincidence:
-    lamps = _lamps(objects, materials, shown)
+    lamps = _deciding(objects, materials, shown)
     bright_planes = [
-        n for n in shown if isinstance(objects[n], Plane) and _emits(objects[n], materials)
+        n for n in shown if isinstance(objects[n], Plane) and _decides(objects[n], materials)
     ]
     found: list[_Shared] = []
     if len(lamps.owner):
@@ -77,16 +78,17 @@ class _Shared(NamedTuple):
     corners: Floats  # (n, 3): corners of the polygons that overlap
 
 
-def _emits(thing: Shape, materials: Mapping[str, Material]) -> bool:
+def _decides(thing: Shape, materials: Mapping[str, Material]) -> bool:
+    """Return whether a surface is a lamp, or only bounds a volume: others may share its place."""
     material = materials.get(thing.material)
-    return material is not None and material.emits
+    return material is not None and (material.emits or isinstance(material, Nothing))
 
 
-def _lamps(
+def _deciding(
     objects: Sequence[Shape], materials: Mapping[str, Material], shown: Sequence[int]
 ) -> Polygons:
-    """Return the flat surfaces that emit."""
-    bright = [n for n in shown if _emits(objects[n], materials)]
+    """Return the flat surfaces that `_decides` names."""
+    bright = [n for n in shown if _decides(objects[n], materials)]
     meshes = [thing for n in bright if isinstance(thing := objects[n], Mesh)]
     if any(mesh.file.triangles is None for mesh in meshes):
         return joined([])

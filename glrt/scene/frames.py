@@ -17,6 +17,8 @@ from glrt.scene.values import LARGEST
 SceneType = TypeVar("SceneType", bound=SceneFields)
 Keys = tuple[str, ...]
 
+_BY_NAME = {"materials": "material", "media": "medium"}  # tables of named parts; what each is
+
 
 def with_values(scene: SceneType, values: Mapping[Keys, Any], source: str) -> SceneType:
     """Return the scene with other values, by keys such as ("objects", "ball", "center").
@@ -36,7 +38,7 @@ def with_values(scene: SceneType, values: Mapping[Keys, Any], source: str) -> Sc
         if table == "objects":
             update[table] = tuple(new.get(place, thing) for place, thing in enumerate(now))
         else:
-            update[table] = {**now, **new} if table == "materials" else new[table]
+            update[table] = {**now, **new} if table in _BY_NAME else new[table]
     return validated(type(scene), dict(scene) | update, source) if update else scene
 
 
@@ -80,9 +82,9 @@ def _of_part(scene: SceneFields, track: Track) -> Iterator[tuple[Place, str]]:
 def _parts(now: Any, keys: Keys) -> dict[Any, Any]:
     """Return the parts of a table that have the value of a target, by their place in it."""
     table, name, *_ = keys
-    if table == "materials":
+    if table in _BY_NAME:
         if name not in now:
-            raise SceneError(unknown("material", name, sorted(now)))
+            raise SceneError(unknown(_BY_NAME[table], name, sorted(now)))
         parts: dict[Any, Any] = {name: now[name]}
     elif table == "objects":
         parts = {number: now[number] for number in _called(now, name)}

@@ -1,4 +1,4 @@
-"""The glasses of a scene, and the medium around its camera."""
+"""The glasses of a scene, and the glass around its camera."""
 
 from collections.abc import Iterable
 from typing import Any, NamedTuple

@@ -5,7 +5,9 @@ from collections.abc import Iterator
 from glrt.core.text import unknown
 from glrt.scene.loading.mesh_parts import lacks_material
 from glrt.scene.materials.base import Opaque
+from glrt.scene.materials.dielectric import Dielectric
 from glrt.scene.materials.kinds import glass_of
+from glrt.scene.materials.nothing import Nothing
 from glrt.scene.schema.fields import SceneFields
 from glrt.scene.schema.validation import Place
 
@@ -29,6 +31,41 @@ def object_problems(scene: SceneFields) -> Iterator[tuple[Place, str]]:
             yield ("objects", index), _GLASS_ADVICE.format(f"{article} {item.shape}")
 
 
+def medium_problems(scene: SceneFields) -> Iterator[tuple[Place, str]]:
+    """Yield place and advice for media that do not go with the objects that hold them."""
+    if scene.medium is not None:
+        yield from _medium_problem(scene, ("medium",), scene.medium, is_endless=True)
+    for index, item in enumerate(scene.objects):
+        material = scene.materials.get(item.material)
+        if isinstance(material, Nothing) and not item.encloses:
+            yield ("objects", index, "material"), _OPEN_ADVICE.format(item.shape)
+        if scene.media and isinstance(material, Dielectric) and material.priority is not None:
+            yield ("materials", item.material, "priority"), _PRIORITY_ADVICE
+        if item.medium is None:
+            continue
+        place = ("objects", index, "medium")
+        yield from _medium_problem(scene, place, item.medium, is_endless=item.shape == "plane")
+        if material is not None and not isinstance(material, Nothing):
+            if not isinstance(material, Dielectric) or material.thin:
+                yield place, _SURFACE_ADVICE
+            elif any(material.absorption):
+                yield place, _TINTED_ADVICE
+            elif material.roughness > 0:
+                yield place, _ROUGH_ADVICE
+
+
+def _medium_problem(
+    scene: SceneFields, place: Place, name: str, is_endless: bool
+) -> Iterator[tuple[Place, str]]:
+    medium = scene.media.get(name)
+    if medium is None:
+        yield place, unknown("medium", name, sorted(scene.media))
+    elif is_endless and any(
+        e and not x for e, x in zip(medium.emission, medium.extinction, strict=True)
+    ):
+        yield ("media", name, "emission"), _ENDLESS_ADVICE
+
+
 def sun_problems(scene: SceneFields) -> Iterator[tuple[Place, str]]:
     """Yield place and advice for a sun and a sky that do not go together."""
     sun, sky = scene.sun, scene.background.sky
@@ -41,6 +78,27 @@ def sun_problems(scene: SceneFields) -> Iterator[tuple[Place, str]]:
         yield ("sun", "irradiance"), "is missing; give it, or a background with sky"
 
 
+_OPEN_ADVICE = (
+    "is of type none, which bounds a volume, and this {} encloses none; use a sphere, a plane, a "
+    "box, a cylinder with caps or a closed mesh"
+)
+_PRIORITY_ADVICE = (
+    "does not go with media: in a scene with media, objects of glass lie apart or one within "
+    "another, and none needs a priority; leave it out"
+)
+_SURFACE_ADVICE = (
+    "light does not enter this object; give it the material none, or smooth glass that encloses it"
+)
+_TINTED_ADVICE = (
+    "the glass absorbs light by attenuation_color, and the medium would, too; leave one of them out"
+)
+_ROUGH_ADVICE = (
+    "rough glass around a medium is not supported; use smooth glass, or glass without a medium"
+)
+_ENDLESS_ADVICE = (
+    "shines in a channel in which the medium neither scatters nor absorbs, and it has no end: that "
+    "is infinitely bright; give it absorption, or put it into an object that ends"
+)
 _GLASS_ADVICE = (
     "{} encloses nothing, so it cannot be dielectric; use a sphere, a plane, a box, a "
     "cylinder with caps or a closed mesh, or a material with thin = true"

@@ -20,7 +20,8 @@ from glrt.scene.loading.file_copies import copy_files
 from glrt.scene.loading.scene_files import with_files
 from glrt.scene.materials.base import Opaque
 from glrt.scene.materials.kinds import Material
-from glrt.scene.misfits import object_problems, sun_problems
+from glrt.scene.medium import Medium
+from glrt.scene.misfits import medium_problems, object_problems, sun_problems
 from glrt.scene.nesting import nesting_problems
 from glrt.scene.schema.fields import SceneFields
 from glrt.scene.schema.tables import to_tables, toml_text
@@ -34,6 +35,11 @@ from glrt.settings import RenderSettings
 
 SKY_GROUP = "background"
 SUN_GROUP = "sun"
+
+
+def media_group(name: str) -> str:
+    """Return the light group of the emission of a medium."""
+    return f"media.{name}"
 
 
 class Finish(NamedTuple):
@@ -56,6 +62,8 @@ class Scene(SceneFields):
         materials: Mapping[str, Material | Mapping[str, Any]] | None = None,
         background: Background | Mapping[str, Any] | None = None,
         sun: Sun | Mapping[str, Any] | None = None,
+        media: Mapping[str, Medium | Mapping[str, Any]] | None = None,
+        medium: str | None = None,
         lights: Mapping[str, Number] | None = None,
         animation: Animation | Mapping[str, Any] | None = None,
         render: RenderSettings | Mapping[str, Any] | None = None,
@@ -77,6 +85,8 @@ class Scene(SceneFields):
             background=background,
             sun=sun,
             materials=materials,
+            media=media,
+            medium=medium,
             lights=lights,
             animation=animation,
             objects=objects,
@@ -163,7 +173,8 @@ class Scene(SceneFields):
     def light_groups(self) -> dict[str, float]:
         """Intensity of every light group: the lamps' groups in order, then sun and background."""
         suns = [SUN_GROUP] if self.sun else []
-        groups = [*self._lamp_groups(), *suns, SKY_GROUP]
+        media = [media_group(name) for name, medium in self.media.items() if medium.emits]
+        groups = [*self._lamp_groups(), *media, *suns, SKY_GROUP]
         return {group: self._intensity(group) for group in groups}
 
     @property
@@ -199,6 +210,10 @@ class Scene(SceneFields):
             return BLACK
         return _scaled(material.emission, self._intensity(finish.group))
 
+    def emission_of_medium(self, name: str) -> Radiance:
+        """Return the radiance of a medium per unit of length, its group's intensity included."""
+        return _scaled(self.media[name].emission, self._intensity(media_group(name)))
+
     def emission_of(self, thing: Object) -> Radiance:
         """Return the radiance of an object, intensity of its light group included."""
         return self.emission(self.finish(thing))
@@ -220,7 +235,8 @@ class Scene(SceneFields):
     def _fits_together(self) -> Self:
         nesting = nesting_problems(self.materials, self.visible)
         lights = [*sun_problems(self), *_light_problems(self)]
-        problems = [*object_problems(self), *nesting, *lights, *_emptiness(self)]
+        things = [*object_problems(self), *medium_problems(self)]
+        problems = [*things, *nesting, *lights, *_emptiness(self)]
         if self.animation:
             problems += animation_problems(self, self.light_groups)
         if problems:
@@ -287,5 +303,10 @@ def _too_bright(what: str) -> str:
 
 
 def _emptiness(scene: Scene) -> Iterator[tuple[Place, str]]:
-    if not scene.visible and not scene.sun and not any(map(any, scene.background.gradient)):
+    shines = scene.sun or any(map(any, scene.background.gradient)) or _glows(scene)
+    if not scene.visible and not shines:
         yield (), "there is nothing to see: add an object, or a background that is not black"
+
+
+def _glows(scene: Scene) -> bool:
+    return scene.medium in scene.media and scene.media[scene.medium or ""].emits

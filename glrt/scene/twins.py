@@ -11,6 +11,7 @@ import numpy as np
 
 from glrt.core.memo import kept_for_the_same
 from glrt.scene.materials.kinds import Material, glass_of
+from glrt.scene.materials.nothing import Nothing
 from glrt.scene.materials.principled import Principled
 from glrt.scene.shapes.kinds import KINDS, Shape
 from glrt.scene.shapes.mesh import Mesh
@@ -121,4 +122,4 @@ def _emits(thing: Shape, materials: Mapping[str, Material]) -> bool:
 
 def _is_opaque(material: Material | None) -> bool:
     has_holes = isinstance(material, Principled) and material.has_holes
-    return glass_of(material) is None and not has_holes
+    return glass_of(material) is None and not has_holes and not isinstance(material, Nothing)

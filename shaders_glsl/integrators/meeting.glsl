@@ -6,6 +6,7 @@ struct Meeting {
     Ray ray;          // leaves the surface, still in the direction of the path
     vec3 behind;      // absorption per unit length on the other side
     uint beyond;      // counts of the glasses with a priority on the other side
+    int medium;       // on the other side
 };
 
 // The material of this sample: a principled surface with transmission acts as glass in part of the samples.
@@ -42,7 +43,9 @@ Meeting meet(Path path, Surface surface, Material material, bool by_shading) {
     }
     vec3 behind = absorption_behind(path, material, side > 0.0);
     Ray ray = Ray(surface.position, direction, surface.shape, side < 0.0);
-    return Meeting(vertex, Normals(facing, shading), ray, behind, beyond);
+    int medium = path.flight.medium;
+    if (HAS_MEDIA) medium = medium_behind(medium, object_number(surface.shape), side > 0.0);
+    return Meeting(vertex, Normals(facing, shading), ray, behind, beyond, medium);
 }
 
 // Sends the path on from the surface in the scattered direction.
@@ -53,6 +56,7 @@ void leave(inout Path path, Meeting at, Scattering next) {
     path.ray = ray;
     if (HAS_ATTENUATION && next.crosses) path.absorption = at.behind;
     if (HAS_NESTED && next.crosses) path.counts = at.beyond;
+    if (HAS_MEDIA && next.crosses) path.flight.medium = at.medium;
     path.depth += 1;
 }
 

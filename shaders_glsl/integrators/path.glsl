@@ -36,18 +36,12 @@ vec3 direct_light(Vertex vertex, LightSample light, float rho) {
         record_weight(scattered, share);
         weight *= share;
     }
-    if (occluded(light.ray, light.distance, light.shape)) {
+    if (!HAS_MEDIA && occluded(light.ray, light.distance, light.shape)) {
         record_shadow();
         return vec3(0.0);
     }
     vec3 radiance = weight * light.radiance;
     return radiance;
-}
-
-// Roulette of paths from the camera. To end paths below a throughput of 1/4 saves more time than it adds variance
-// (docs/results/speed.md).
-bool roulette_ends(inout vec3 throughput, inout Sampler rng) {
-    return ends_at_random(throughput, 4.0, rng);
 }
 
 // The end of a path in the classic models: adds the light of the lamps and of a sky that nothing hides.
@@ -79,6 +73,10 @@ void pass_hole(inout Path path, Surface surface, float distance) {
     path.passed.holes += 1u;
     path.passed.way += distance;
     path.ray = beyond(path.ray, surface);
+    if (HAS_MEDIA) {
+        int object = object_number(surface.shape);
+        path.flight.medium = medium_behind(path.flight.medium, object, path.ray.inward);
+    }
 }
 
 // `emission_weight` of the emission that a segment meets. The segment may have passed holes.
@@ -104,6 +102,10 @@ void gather_sampled(inout Path path, Meeting at, LightSample light, int source) 
     float rho = path.rivals.rho * path_turn(path, at, light.ray.direction, links_at(path, at.vertex));
     vec3 direct = path.scale * path.throughput * direct_light(at.vertex, light, rho);
     if (HAS_ATTENUATION) direct *= share_left(along < 0.0 ? at.behind : path.absorption, light.distance);
+    if (HAS_MEDIA && direct != vec3(0.0)) {
+        light.ray.inward = light.ray.inward != (along < 0.0);
+        direct *= light_left(light.ray, light.distance, light.shape, along < 0.0 ? at.medium : path.flight.medium);
+    }
     record_sample(light.ray.direction, light.distance);
     record_light(BY_SAMPLING, source, light.pdf, light.radiance, direct);
     gather(path, direct, light.layer, path.depth + 1);
@@ -227,6 +229,7 @@ bool scatter_path(inout Path path, Surface surface, Material whole, inout Sample
     leave(path, at, next);
     path.passed = Passed(0u, path.ray, 0.0);
     path.pdf = next.pdf;
+    if (HAS_MEDIA) begin_flight(path.flight, path.throughput, rng);
     return true;
 }
 
@@ -234,7 +237,9 @@ bool scatter_path(inout Path path, Surface surface, Material whole, inout Sample
 bool extend_path(inout Path path, inout Sampler rng) {
     if (path.passed.holes == 0u) leave_vertex(rng.seed, path.depth);
     Hit hit = closest_hit(path.ray);
+    if (HAS_MEDIA && collides(path, hit.distance)) return scatter_in_medium(path, rng);
     if (hit.shape == NO_SHAPE) {
+        if (HAS_MEDIA) land(path);
         gather_sky(path);
         gather_sun(path);
         record_end(END_LEFT_SCENE);
@@ -255,6 +260,7 @@ bool extend_path(inout Path path, inout Sampler rng) {
         pass_hole(path, surface, hit.distance);
         return true;
     }
+    if (HAS_MEDIA) land(path);
     gather_emission(path, surface, material, share);
     meet_second(path, surface, material);
     if (path.depth == frame.bounces || HAS_PROBES && path.asking.is_done) {

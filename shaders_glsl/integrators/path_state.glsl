@@ -32,6 +32,7 @@ struct Path {
     Passed passed;
     Rivals rivals;
     Asking asking;
+    Flight flight;
     vec3 layers[MOST_LAYERS];  // the radiance by layers
 };
 
@@ -40,8 +41,10 @@ Path start_path(Ray ray) {
     uint counts = HAS_NESTED ? frame.camera_counts : 0u;
     Passed passed = Passed(0u, ray, 0.0);
     Rivals rivals = Rivals(0.0, start_chain(ray));
+    Flight flight = start_flight(HAS_MEDIA ? frame.camera_medium : NO_MEDIUM);
     Asking asking = Asking(!FINAL_GATHER || FROM_PROBES, false);
-    return Path(ray, vec3(1.0), 1.0, vec3(0.0), 0.0, 0.0, 0, absorption, counts, passed, rivals, asking, NO_LAYERS);
+    return Path(ray, vec3(1.0), 1.0, vec3(0.0), 0.0, 0.0, 0, absorption, counts, passed, rivals, asking, flight,
+                NO_LAYERS);
 }
 
 // Adds light of a lamp that is `length` scattering events from the camera; `group` is its layer. A path of a probe

@@ -1,7 +1,9 @@
 // The samples that one dispatch adds to one pixel.
 
 Path camera_path(ivec2 place, inout Sampler rng) {
-    return start_path(camera_ray(frame.camera, vec2(frame.size), vec2(place), rng));
+    Path path = start_path(camera_ray(frame.camera, vec2(frame.size), vec2(place), rng));
+    if (HAS_MEDIA) begin_flight(path.flight, path.throughput, rng);
+    return path;
 }
 
 // Count of rays of a sample, which replaces radiance where COUNT_RAYS.

@@ -1,6 +1,7 @@
 // Flat surfaces in one place, where one of them emits: a lamp in the plane of a ceiling, or two lamps that overlap. A
 // place has one surface, and every ray sees the same one. Among surfaces that a ray meets within rounding of each
-// other, one that emits towards the ray comes before others, then the one with the lower number. HAS_COINCIDENT:
+// other, one that emits towards the ray comes before others, these before bounds of volumes, then the one with the
+// lower number. HAS_COINCIDENT:
 // whether there are such places (glrt/scene/coincidence.py).
 
 // Shares of the largest coordinate: 2^-19 and 2^-18, 32 and 64 times the rounding of a float. Two tests of a flat
@@ -50,7 +51,7 @@ Ray clear_of(Ray ray) {
 
 struct Claim {
     vec3 normal;
-    bool shines;  // whether it emits towards the ray
+    int rank;  // 2: it emits towards the ray, 0: it only bounds a volume, 1: any other surface
 };
 
 Claim claim_of(Ray ray, float t, int shape) {
@@ -61,7 +62,7 @@ Claim claim_of(Ray ray, float t, int shape) {
     if (HAS_ONE_SIDED && emitter_at(material.emitter).is_one_sided != 0) {
         shines = shines && dot(normal, ray.direction) < 0.0;
     }
-    return Claim(normal, shines);
+    return Claim(normal, shines ? 2 : HAS_NONE && material.kind == NONE ? 0 : 1);
 }
 
 // How far apart along a ray two hits may be that tie.
@@ -81,7 +82,7 @@ bool comes_before(Ray ray, float t, int shape, Hit hit) {
         Claim other = claim_of(ray, hit.distance, hit.shape);
         float cosine = larger(abs(dot(own.normal, ray.direction)), abs(dot(other.normal, ray.direction)));
         if (apart * cosine > TOGETHER * coincident_reach(ray)) continue;
-        is_before = own.shines == other.shines ? shape < hit.shape : own.shines;
+        is_before = own.rank == other.rank ? shape < hit.shape : own.rank > other.rank;
     }
     return is_before;
 }

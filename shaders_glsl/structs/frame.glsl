@@ -57,4 +57,5 @@ struct Frame {
     int probe_count;
     ivec3 probe_counts;     // along x, y and z
     float coincident_reach; // largest coordinate of surfaces in one place, relative to the camera; where HAS_COINCIDENT
+    int camera_medium;      // row of the medium around the camera, or NO_MEDIUM
 };

@@ -5,10 +5,11 @@ const int METAL = 1;       // mirror or GGX
 const int DIELECTRIC = 2;  // interface with Fresnel reflection, smooth or GGX
 const int PANE = 3;        // two smooth interfaces, so near each other that they are one surface
 const int PRINCIPLED = 4;  // a coat over metal and dielectric facets over a matte base
+const int NONE = 5;        // no surface: the bounds of a volume
 
 struct Material {
     vec3 color;      // albedo or reflectance; for a conductor, a factor of its reflectance
-    int kind;        // MATTE, METAL, DIELECTRIC, PANE or PRINCIPLED
+    int kind;        // MATTE, METAL, DIELECTRIC, PANE, PRINCIPLED or NONE
     vec3 emission;   // radiance, light intensity included
     float alpha;     // GGX roughness, the square of the scene file's; 0: smooth
     float ior;       // inside over outside

@@ -6,4 +6,5 @@
 #include "structs/details.glsl"
 #include "structs/maps.glsl"
 #include "structs/lights.glsl"
+#include "structs/media.glsl"
 #include "structs/frame.glsl"

@@ -1,4 +1,4 @@
-// Surfaces that are partly there, or have holes: light passes where a hashed number is not below the coverage.
+// Surfaces that are partly there, have holes, or only bound a volume: light passes where a hashed number is not below the coverage.
 // The number depends on the sample, on the vertex that the segment leaves, and on how many surfaces it has passed. It
 // does not depend on the order in which a tree is searched. A hole costs no bounce, and rays to lamps follow the same
 // rule.
@@ -7,7 +7,9 @@ const uint MOST_HOLES = 1024u;  // of a segment: surfaces behind more holes are 
 
 // `passed`: holes of this segment so far.
 bool is_hole(Material material, uint passed) {
-    if (material.kind != PRINCIPLED || material.coverage >= 1.0 || passed >= MOST_HOLES) return false;
+    if (passed >= MOST_HOLES) return false;
+    if (HAS_NONE && material.kind == NONE) return true;
+    if (material.kind != PRINCIPLED || material.coverage >= 1.0) return false;
     return hole_number(passed) >= material.coverage;
 }
 

@@ -13,8 +13,8 @@ from glrt.scene.animation.rotations import angles
 from glrt.scene.values import LARGEST, Number, Triple, Value
 
 MOST_FRAMES = 1_000_000
-TABLES = ("camera", "background", "sun", "lights", "materials", "objects")
-NAMED = ("materials", "objects")  # tables whose values have a name before their key
+TABLES = ("camera", "background", "sun", "lights", "materials", "media", "objects")
+NAMED = ("materials", "media", "objects")  # tables whose values have a name before their key
 ROTATION = "rotate"  # the key that takes a quaternion, too
 _LONGEST = 500  # letters of a target
 _NUMBER = {"type": "number"}
@@ -42,7 +42,8 @@ def parse_target(text: str) -> tuple[str, ...]:
     if keys[0] not in TABLES or len(keys) != wanted:
         raise ValueError(
             f"{quoted(text)} names no value that can change: it must be one of camera.KEY, "
-            "background.KEY, sun.KEY, lights.GROUP, materials.NAME.KEY and objects.NAME.KEY"
+            "background.KEY, sun.KEY, lights.GROUP, materials.NAME.KEY, media.NAME.KEY and "
+            "objects.NAME.KEY"
         )
     return tuple(keys)
 

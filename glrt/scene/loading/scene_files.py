@@ -17,6 +17,7 @@ from glrt.scene.materials.kinds import Material, glass_of
 from glrt.scene.meshes.triangle_meshes import MOST_TRIANGLES
 from glrt.scene.schema.fields import SceneFields
 from glrt.scene.shapes.mesh import Mesh
+from glrt.scene.volumes import volume_problems
 
 SceneType = TypeVar("SceneType", bound=SceneFields)
 Files = Mapping[NamedContent, NamedContent]
@@ -54,7 +55,7 @@ def with_files(
     reader = AssetReader(folder)
     scene = _read(scene, reader, source)
     scene = _read(with_own_materials(scene, reader, source, rest), reader, source)
-    problem = next(mesh_problems(scene), None)
+    problem = next(placing_problems(scene), None)
     if problem:
         raise SceneError(f"{source}: {problem}")
     return scene
@@ -104,12 +105,12 @@ def check_loaded(scene: SceneFields) -> None:
                 f"{key}: the file {named.file} was not read: load the scene by glrt.load, or give "
                 "Scene.build the folder of its files."
             )
-    for problem in mesh_problems(scene):
+    for problem in placing_problems(scene):
         raise SceneError(problem)
 
 
-def mesh_problems(scene: SceneFields) -> Iterator[str]:
-    """Yield what does not fit in meshes that were read, as `key: ...`."""
+def placing_problems(scene: SceneFields) -> Iterator[str]:
+    """Yield what does not fit in meshes that were read, and around media, as `key: ...`."""
     for index, shape in _meshes(scene):
         key = f"objects[{index}].file: {shape.file.file}"
         if problem := part_problem(shape):
@@ -127,6 +128,7 @@ def mesh_problems(scene: SceneFields) -> Iterator[str]:
             )
     yield from _without_coordinates(scene)
     yield from _too_many(scene)
+    yield from volume_problems(scene)
 
 
 def _without_coordinates(scene: SceneFields) -> Iterator[str]:

@@ -12,5 +12,6 @@ Modules, each importing only what stands above it:
 - lambertian: matte surfaces
 - light: surfaces of lamps
 - metal: metal surfaces
+- nothing: bounds of volumes that are no surface
 - kinds: all types of materials
 """

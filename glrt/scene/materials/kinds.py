@@ -13,10 +13,11 @@ from glrt.scene.materials.dielectric import Dielectric
 from glrt.scene.materials.lambertian import Lambertian
 from glrt.scene.materials.light import Light
 from glrt.scene.materials.metal import Metal
+from glrt.scene.materials.nothing import Nothing
 from glrt.scene.materials.principled import Principled
 
 Material = Annotated[
-    Lambertian | Metal | Dielectric | Principled | Light, Field(discriminator="type")
+    Lambertian | Metal | Dielectric | Principled | Light | Nothing, Field(discriminator="type")
 ]
 
 TYPES: dict[str, Any] = {  # the model of each type

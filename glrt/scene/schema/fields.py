@@ -1,20 +1,24 @@
 """The fields of a scene, each with its range and meaning."""
 
-from typing import Annotated
+from collections.abc import Mapping
+from typing import Annotated, Any
 
-from pydantic import Field, field_validator
+from pydantic import Field, field_validator, model_validator
 
 from glrt.scene.animation.tracks import Animation
 from glrt.scene.camera import Camera
 from glrt.scene.lights.background import Background
 from glrt.scene.lights.sun import Sun
 from glrt.scene.materials.kinds import Material
+from glrt.scene.medium import Medium
 from glrt.scene.probes import Probes
 from glrt.scene.shapes.kinds import Shape
 from glrt.scene.values import Intensity, Name
 from glrt.settings import Cost, Editable, Frozen, RenderSettings
 
 MAX_OBJECTS = 65_536
+MAX_MEDIA = 8
+NONE = "none"  # the name and the type of a material that is no surface
 
 
 class SceneFields(Frozen):
@@ -40,6 +44,13 @@ class SceneFields(Frozen):
         "default: around what is seen",
     )
     materials: dict[Name, Material] = Field({}, description="materials by name")
+    media: Annotated[dict[Name, Medium], Field(max_length=MAX_MEDIA)] = Field(
+        {}, description="media by name, at most 8: what fills objects or all of space"
+    )
+    medium: Name | None = Field(
+        None,
+        description="name of the medium around all objects; default: vacuum",
+    )
     lights: Annotated[dict[Name, Intensity], Editable(Cost.RELIGHT, "", (0, 10))] = Field(
         {},
         description="intensity of each light group, a factor from 0 to 1e15; default: 1",
@@ -52,9 +63,25 @@ class SceneFields(Frozen):
         None, description="values that change from frame to frame; default: a still"
     )
 
+    @model_validator(mode="before")
+    @classmethod
+    def _knows_none(cls, data: Any) -> Any:
+        """Add the material `none` where objects have it, and the scene has none of that name."""
+        if not isinstance(data, Mapping) or not isinstance(data.get("objects"), list | tuple):
+            return data
+        materials = data.get("materials", {})
+        is_known = not isinstance(materials, Mapping) or NONE in materials
+        if is_known or all(_material(thing) != NONE for thing in data["objects"]):
+            return data
+        return {**data, "materials": {**materials, NONE: {"type": NONE}}}
+
     @field_validator("format")
     @classmethod
     def _is_known_format(cls, value: int) -> int:
         if value != 1:
             raise ValueError("must be 1, the only format that this version of glrt reads")
         return value
+
+
+def _material(thing: Any) -> Any:
+    return thing.get("material") if isinstance(thing, Mapping) else getattr(thing, "material", None)

@@ -17,6 +17,8 @@ def to_tables(**parts: Any) -> dict[str, Any]:
     given = {key: _table(value) for key, value in parts.items() if value is not None}
     if isinstance(materials := given.get("materials"), Mapping):
         given["materials"] = {name: _table(item) for name, item in materials.items()}
+    if isinstance(media := given.get("media"), Mapping):
+        given["media"] = {name: _table(item) for name, item in media.items()}
     if isinstance(objects := given.get("objects"), Iterable) and not isinstance(objects, _NO_LISTS):
         given["objects"] = [_table(item) for item in objects]
     return given

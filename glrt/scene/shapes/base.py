@@ -39,6 +39,11 @@ class Object(Tagged):
         description="light group whose intensity its emission follows; default: that of its "
         "material",
     )
+    medium: Annotated[Name | None, Editable(Cost.RECOMPILE)] = Field(
+        None,
+        description="name of the medium inside, for an object of glass or of a material of type "
+        "none; default: vacuum",
+    )
     hidden: Annotated[bool, Editable(Cost.RECOMPILE)] = Field(
         False, description="whether it is left out of the picture"
     )

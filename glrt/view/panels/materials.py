@@ -54,6 +54,7 @@ _KINDS = {
     "dielectric": "glass, water",
     "principled": "plastic, paint",
     "light": "a lamp",
+    "none": "no surface",
 }
 TYPE = replace(
     choice("type", _TYPE, Cost.RECOMPILE, tuple(TYPES)), told=tuple(_KINDS[kind] for kind in TYPES)

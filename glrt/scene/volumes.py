@@ -1,0 +1,171 @@
+"""Which medium lies inside and outside each object that bounds a volume.
+
+Volumes lie apart from each other or one within another. So the medium around each is known before
+a render, and a path needs no stack of the volumes around it.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glrt.core.memo import kept_for_the_same
+from glrt.core.text import quoted
+from glrt.scene.camera import Camera
+from glrt.scene.crossing_glass import Relation, relations
+from glrt.scene.materials.kinds import Material, glass_of
+from glrt.scene.materials.nothing import Nothing
+from glrt.scene.schema.fields import SceneFields
+from glrt.scene.shapes.box import Box
+from glrt.scene.shapes.kinds import Shape
+from glrt.scene.shapes.mesh import Mesh
+from glrt.scene.shapes.plane import Plane
+
+MOST_VOLUMES = 24  # in a scene with media: every pair of them is compared
+LENS_POINTS = 16  # points on the rim of the lens
+
+Floats = NDArray[np.float64]
+
+
+class Bounds(NamedTuple):
+    """An object that bounds a volume, and the names of the media on both sides."""
+
+    number: int  # of the object in the scene
+    inside: str | None  # None: vacuum
+    outside: str | None
+
+
+def bounds_a_volume(material: Material | None) -> bool:
+    """Return whether an object of this material bounds a volume, with or without a surface."""
+    glass = glass_of(material)
+    return isinstance(material, Nothing) or (glass is not None and not glass.thin)
+
+
+def bounds_of(scene: SceneFields) -> tuple[Bounds, ...]:
+    """Return the bounds of all volumes, in the order of objects; none in a scene without media."""
+    around = _around(scene) if scene.media else {}
+    things = scene.objects
+    return tuple(
+        Bounds(n, things[n].medium, things[outer[-1]].medium if outer else scene.medium)
+        for n, outer in around.items()
+    )
+
+
+def medium_around(scene: SceneFields, point: Floats) -> str | None:
+    """Return the name of the medium at a point, (3,); None for vacuum."""
+    around = _around(scene) if scene.media else {}
+    holding = [n for n in around if scene.objects[n].holds(point)]
+    inner = max(holding, key=lambda n: len(around[n]), default=None)
+    return scene.medium if inner is None else scene.objects[inner].medium
+
+
+def volume_problems(scene: SceneFields) -> Iterator[str]:
+    """Yield why the media at some places are not known, as `key: ...`."""
+    if not scene.media:
+        return
+    volumes = _volumes(scene.objects, scene.materials)
+    if len(volumes) > MOST_VOLUMES:
+        yield (
+            f"objects[{volumes[MOST_VOLUMES]}]: {len(volumes)} objects are of glass or bound a "
+            f"medium, and {MOST_VOLUMES} can be in a scene with media; join some, or remove some"
+        )
+        return
+    for relation, (first, second) in _related(scene.objects, scene.materials):
+        pair = (scene.objects[first], scene.objects[second])
+        names = f"objects[{first}] ({_called(pair[0])}) and objects[{second}] ({_called(pair[1])})"
+        if relation != "inside":
+            yield f"{names} {_RELATION[relation]}, so {_ADVICE}"
+        elif isinstance(pair[1], Mesh):
+            yield f"{names}: the first lies in the box around a mesh, so {_ADVICE}"
+    yield from _lens_problems(scene, volumes)
+
+
+def _lens_problems(scene: SceneFields, volumes: Sequence[int]) -> Iterator[str]:
+    rim = _lens(scene.camera)
+    for number in volumes:
+        thing = scene.objects[number]
+        if len({thing.holds(point) for point in rim}) > 1:
+            yield (
+                f"camera: its lens lies across the surface of objects[{number}] "
+                f"({_called(thing)}); move the camera, or make the lens smaller"
+            )
+
+
+def _lens(camera: Camera) -> Floats:
+    """Return points on the rim of the lens, (LENS_POINTS, 3), and its middle last."""
+    middle = np.array(camera.position, np.float64)
+    if not camera.defocus_angle:
+        return middle[None]
+    forward = np.subtract(camera.look_at, camera.position)
+    right = np.cross(forward, camera.up)
+    right /= np.linalg.norm(right)
+    up = np.cross(right, forward / np.linalg.norm(forward))
+    radius = np.tan(np.radians(camera.defocus_angle) / 2) * camera.resolved_focus_distance
+    turn = 2 * np.pi * np.arange(LENS_POINTS)[:, None] / LENS_POINTS
+    rim: Floats = middle + radius * (np.cos(turn) * right + np.sin(turn) * up)
+    return np.concatenate([rim, middle[None]])
+
+
+_RELATION: dict[Relation, str] = {"cross": "cross", "share a face": "share a part of a face"}
+_ADVICE = (
+    "which medium lies where is not known: in a scene with media, move objects of glass and "
+    "objects that bound a medium apart, or one wholly into another"
+)
+
+
+def _called(thing: Shape) -> str:
+    return quoted(thing.name) if thing.name else thing.shape
+
+
+def _around(scene: SceneFields) -> dict[int, list[int]]:
+    """Return the volumes that hold each volume, the innermost last."""
+    volumes = _volumes(scene.objects, scene.materials)
+    outer: dict[int, list[int]] = {number: [] for number in volumes}
+    for relation, (inner, holder) in _related(scene.objects, scene.materials):
+        if relation == "inside":
+            outer[inner].append(holder)
+    return {n: sorted(held, key=lambda one: len(outer[one])) for n, held in outer.items()}
+
+
+def _volumes(objects: Sequence[Shape], materials: Mapping[str, Material]) -> list[int]:
+    """Return the numbers of visible objects that bound a volume."""
+    return [
+        n
+        for n, thing in enumerate(objects)
+        if not thing.hidden and bounds_a_volume(materials.get(thing.material))
+    ]
+
+
+@kept_for_the_same
+def _related(
+    objects: Sequence[Shape], materials: Mapping[str, Material]
+) -> tuple[tuple[Relation, tuple[int, int]], ...]:
+    """Return which volumes cross, share a face or lie in each other, by numbers of objects."""
+    volumes = _volumes(objects, materials)[:MOST_VOLUMES]
+    solids = [_solid(objects[n]) for n in volumes]
+    found = [(it.relation, it.pair) for it in relations(solids, np.zeros(3))]
+    found += [("inside", pair) for pair in _within_planes(solids)]
+    return tuple((relation, (volumes[a], volumes[b])) for relation, (a, b) in found)
+
+
+def _solid(thing: Shape) -> Shape:
+    """Return a convex solid in place of a mesh: the box around it."""
+    if not isinstance(thing, Mesh):
+        return thing
+    corners = thing.world_vertices
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    return Box(min=tuple(low), max=tuple(high), material=thing.material)
+
+
+def _within_planes(solids: Sequence[Shape]) -> Iterator[tuple[int, int]]:
+    """Yield parallel planes of which the first lies behind the second and faces the same way."""
+    planes = [n for n, solid in enumerate(solids) if isinstance(solid, Plane)]
+    for a in planes:
+        for b in planes:
+            first, second = solids[a], solids[b]
+            assert isinstance(first, Plane)
+            assert isinstance(second, Plane)
+            faces_alike = float(np.dot(first.normal, second.normal)) > 0
+            if a != b and faces_alike and second.holds(np.array(first.point)):
+                yield a, b

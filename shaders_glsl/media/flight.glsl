@@ -1,0 +1,107 @@
+// A path between two vertices: it flies through media, across any number of bounds, until it collides or meets a
+// surface.
+//
+// One channel decides how far it flies; the density contains the chances of all three (Wilkie et al., "Hero
+// Wavelength Spectral Sampling", EGSR 2014, eq. 6). A chance is the channel's share of the throughput, so no weight
+// exceeds the sum of the throughput.
+
+struct Flight {
+    int medium;     // around the next segment, or NO_MEDIUM
+    int channel;    // decides
+    float depth;    // optical depth in that channel, from here to the collision
+    vec3 chances;   // of the channels
+    vec3 left;      // share of light that scattering media have left since the last vertex
+};
+
+// -ln(1 - u), for u below 1, which differs between drivers: by the exponent and the series of artanh, whose argument
+// is at most 0.172. The series is right to 1e-9.
+float depth_of(float u) {
+    int bits = floatBitsToInt(1.0 - u);
+    int exponent = (bits - 0x3F3504F3) >> 23;  // of a mantissa from sqrt(1/2) to sqrt(2)
+    float mantissa = intBitsToFloat(bits - (exponent << 23));
+    float s = (mantissa - 1.0) / (mantissa + 1.0);
+    float s2 = s * s;
+    float p = 1.0 / 9.0;
+    p = p * s2 + 1.0 / 7.0;
+    p = p * s2 + 1.0 / 5.0;
+    p = p * s2 + 1.0 / 3.0;
+    float series = 2.0 * s + 2.0 * s * s2 * p;
+    float depth = -float(exponent) * 0.69314718 - series;
+    return depth;
+}
+
+Flight start_flight(int medium) {
+    return Flight(medium, 0, 0.0, vec3(1.0), vec3(1.0));
+}
+
+// Draws how far the path flies from a vertex with this throughput, which is not black.
+void begin_flight(inout Flight flight, vec3 throughput, inout Sampler rng) {
+    vec2 u = next_2d(rng);
+    flight.chances = throughput / (throughput.x + throughput.y + throughput.z);
+    float red = flight.chances.x;
+    bool is_blue = u.x >= red + flight.chances.y && flight.chances.z > 0.0;
+    flight.channel = u.x < red ? 0 : is_blue ? 2 : 1;
+    flight.depth = depth_of(u.y);
+    flight.left = vec3(1.0);
+}
+
+// The factor of the throughput, where the flight has come so far without a collision.
+vec3 weight_of_flight(Flight flight) {
+    if (flight.left == vec3(1.0)) return vec3(1.0);
+    float chance = dot(flight.chances, flight.left);
+    if (chance == 0.0) return vec3(0.0);
+    vec3 weight = flight.left / chance;
+    return weight;
+}
+
+// The same where it collides, with what the medium absorbs.
+vec3 weight_of_collision(Flight flight, Medium medium) {
+    float density = dot(flight.chances, flight.left * medium.extinction);
+    if (density == 0.0) return vec3(0.0);
+    vec3 weight = flight.left * medium.scattering / density;
+    return weight;
+}
+
+// The medium behind the bounds of an object; `medium` itself if the object bounds nothing.
+int medium_behind(int medium, int object, bool enters) {
+    for (int i = 0; i < BOUNDARIES; ++i) {
+        Boundary bounds = boundary_at(i);
+        if (bounds.object == object) return enters ? bounds.inside : bounds.outside;
+    }
+    return medium;
+}
+
+// (1 - exp(-x d)) / x: the integral of what is left of light, over the distance d.
+float integral_of_decay(float x, float d) {
+    float depth = x * d;
+    if (depth < 1.0e-3) return d * (1.0 - 0.5 * depth + depth * depth / 6.0);
+    return (1.0 - decay(depth)) / x;
+}
+
+vec3 integral_of_decay(vec3 x, float d) {
+    return vec3(integral_of_decay(x.x, d), integral_of_decay(x.y, d), integral_of_decay(x.z, d));
+}
+
+// The share of light that reaches a point from `distance` away, through media and their bounds; 0 where a surface
+// stands between. `lamp`: the shape that the light comes from, or NO_SHAPE.
+vec3 light_left(Ray ray, float distance, int lamp, int medium) {
+    if (COUNT_RAYS) rays_so_far += 1.0;
+    bool is_shared = HAS_COINCIDENT && lamp != NO_SHAPE && !(HAS_SPHERE && up_to_sphere(lamp));
+    float limit = is_shared ? FAR : distance;
+    vec3 depth = vec3(0.0);
+    uint passed = 0u;
+    for (; passed <= MOST_HOLES; passed += 1u) {
+        Hit hit = find_hit(ray, limit, is_shared ? NO_SHAPE : lamp, false);
+        bool arrives = hit.shape == (is_shared ? lamp : NO_SHAPE);
+        if (medium != NO_MEDIUM) depth += hit.distance * medium_at(medium).extinction;
+        if (arrives) return vec3(decay(depth.x), decay(depth.y), decay(depth.z));
+        if (hit.shape == NO_SHAPE) return vec3(0.0);
+        Surface surface = surface_at(ray, hit);
+        if (!is_hole(material_of(ray, surface), passed)) return vec3(0.0);
+        if (limit < FAR) limit -= hit.distance;
+        ray = beyond(ray, surface);
+        medium = medium_behind(medium, object_number(surface.shape), ray.inward);
+    }
+    note_end(int(passed), int(MOST_HOLES) + 2);
+    return vec3(0.0);
+}
