@@ -222,5 +222,11 @@ def _unlit(scene: Scene) -> Scene:
         name: it.model_copy(update={"emission": ONE}) if it.emits else it
         for name, it in scene.media.items()
     }
-    update = {"materials": materials, "media": media, "lights": {}, "background": background, "sun": sun}
+    update = {
+        "materials": materials,
+        "media": media,
+        "lights": {},
+        "background": background,
+        "sun": sun,
+    }
     return scene.model_copy(update=update)

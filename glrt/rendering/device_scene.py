@@ -83,7 +83,8 @@ class DeviceScene:
         variant = options.variant.constants
         stack = {"TREE_STACK": self._tree.stack if self._tree else 0}
         self._constants = {**plan.needs.constants(), **plan.constants(), **stack, **variant}
-        self._has_tree = plan.facts.has_trees  # without one no samples are lost
+        # Rounds of loops are counted beforehand, but for trees and passed surfaces they are guessed.
+        self._may_lose = plan.facts.has_trees or bool(plan.facts.passed)
         self.tier = tier_for(self._arrays, options.tier)
         self._texts = self._texts_of(self.tier)
         self._resources: dict[str, Resource] = {}
@@ -166,7 +167,7 @@ class DeviceScene:
 
     def lost_any(self) -> bool:
         """Whether kernels lost samples to the driver's loop limit since the last call."""
-        if not self._has_tree or not any(self._lost.read()):
+        if not self._may_lose or not any(self._lost.read()):
             return False
         self._lost.clear()
         return True

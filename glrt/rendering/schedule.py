@@ -72,7 +72,8 @@ def iterations_per_sample(plan: Plan, tree_rounds: float = TREE_ROUNDS) -> int:
         rays, choice = rays + 1, choice + levels + 1
     rays += traits.samples_lights and plan.scene.sun is not None
     segments = (settings.bounces + 1) * (1 + _passed(facts))
-    return 1 + segments * (1 + rays * search + choice)
+    bounds = 2 + len(facts.bounds) if plan.needs.has_media else 0  # looked up at each that is met
+    return 1 + segments * (1 + rays * (search + bounds) + choice)
 
 
 def rounds_for_particles(plan: Plan) -> int:

@@ -71,11 +71,15 @@ int medium_behind(int medium, int object, bool enters) {
     return medium;
 }
 
-// (1 - exp(-x d)) / x: the integral of what is left of light, over the distance d.
+// (1 - exp(-x d)) / x: the integral of what is left of light, over the distance d. The series is right to 2e-8.
 float integral_of_decay(float x, float d) {
     float depth = x * d;
-    if (depth < 1.0e-3) return d * (1.0 - 0.5 * depth + depth * depth / 6.0);
-    return (1.0 - decay(depth)) / x;
+    if (depth > 0.1) return (1.0 - decay(depth)) / x;
+    float p = 1.0 / 24.0 - depth / 120.0;
+    p = 1.0 / 6.0 - p * depth;
+    p = 0.5 - p * depth;
+    float integral = d * (1.0 - p * depth);
+    return integral;
 }
 
 vec3 integral_of_decay(vec3 x, float d) {

@@ -8,7 +8,7 @@ import pytest
 from glrt.core.errors import SceneError
 from glrt.plan.facts import SceneFacts
 from glrt.scene.glasses import glasses_of
-from glrt.scene.loading.scene_files import mesh_problems
+from glrt.scene.loading.scene_files import placing_problems
 from glrt.scene.warnings import cautions
 from glrt.settings import settings_for
 from tests.support.builders import (
@@ -60,7 +60,7 @@ def test_a_pane_may_be_flat_and_other_glass_may_not() -> None:
             scene_of([thing], {"glass": glass()})
     open_mesh = mesh((np.eye(3), np.array([[0, 1, 2]])), "glass")
     for keys, count in (({"thin": True}, 0), ({}, 1)):
-        assert len(list(mesh_problems(scene_of([open_mesh], {"glass": glass(**keys)})))) == count
+        assert len(list(placing_problems(scene_of([open_mesh], {"glass": glass(**keys)})))) == count
 
 
 def test_more_glasses_than_can_be_counted_are_refused_by_name() -> None:

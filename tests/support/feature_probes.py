@@ -62,9 +62,15 @@ PROBES = {
     "HAS_ATTENUATION": ("integrators/glasses.glsl", "absorption * distance", "{} * absorption"),
     "HAS_NESTED": (
         "integrators/glasses.glsl",
-        "return glass_at(medium).ior",
-        "return {} * glass_at(medium).ior",
+        "return glass_at(glass).ior",
+        "return {} * glass_at(glass).ior",
     ),
+    "HAS_NONE": (
+        "textures/holes.glsl",
+        "material.kind == NONE",
+        "float(material.kind) == {} * float(NONE)",
+    ),
+    "HAS_MEDIA": ("media/phase.glsl", "2.0 * u - 1.0", "2.0 * u - {}"),
     "HAS_LENS": ("integrators/camera.glsl", "camera.tan_lens * offset", "{} * offset"),
     "HAS_BACKGROUND": (
         "integrators/path.glsl",

@@ -1,0 +1,108 @@
+"""Phase functions, flights and their weights: against float64 and closed forms."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from tests.conftest import CallGlsl
+from tests.shaders.test_sampling import DRAWS, GRIDS, RNG, Floats, cells_of
+from tests.support.alarms import assert_fits
+from tests.support.numerics import BELOW_ONE
+
+TURNS = [-0.99, -0.5, 0.0, 1e-4, 0.6, 0.99]
+UP = "vec3(0.0, 0.0, 1.0)"
+
+
+def below(g: float, cosine: Floats) -> Floats:
+    """The chance of a turn whose cosine is below a limit."""
+    if g == 0:
+        return (cosine + 1) / 2
+    return ((1 - g * g) / np.sqrt(1 + g * g - 2 * g * cosine) - (1 - g)) / (2 * g)
+
+
+@pytest.mark.parametrize("grid", GRIDS, ids=str)
+@pytest.mark.parametrize("g", [-0.8, 0.0, 0.5])
+def test_light_turns_by_the_density(call_glsl: CallGlsl, g: float, grid: tuple[int, int]) -> None:
+    rows, columns = grid
+    share = np.diff(below(g, np.linspace(-1, 1, rows + 1))) / columns
+    drawn = call_glsl(
+        f"sample_phase({g}, {UP}, next_2d(rng))", "vec3", setup=RNG, n=np.arange(DRAWS)
+    )
+    assert_fits(cells_of(drawn, *grid, lowest=-1.0), DRAWS * np.repeat(share, columns))
+
+
+@pytest.mark.parametrize("g", TURNS)
+def test_a_turn_is_the_inverse_of_its_distribution(call_glsl: CallGlsl, g: float) -> None:
+    """Its mean is g, that of its second Legendre polynomial g^2 (Henyey and Greenstein 1941)."""
+    u = (np.arange(200_000) + 0.5) / 200_000
+    cosine = call_glsl(f"sample_turn({g}, u)", u=u.astype(np.float32)).astype(np.float64)
+    if abs(g) > 0.01:
+        exact = (1 + g * g - ((1 - g * g) / (1 - g + 2 * g * u)) ** 2) / (2 * g)
+        assert_allclose(cosine, exact, atol=4e-3 if abs(g) > 0.9 else 2e-6)
+    assert cosine.mean() == pytest.approx(g, abs=2e-5)
+    assert (1.5 * cosine**2 - 0.5).mean() == pytest.approx(g * g, abs=5e-5)
+
+
+@pytest.mark.parametrize("g", TURNS)
+def test_the_density_of_a_turn_keeps_its_digits(call_glsl: CallGlsl, g: float) -> None:
+    angle = np.concatenate([np.linspace(0, np.pi, 1001), 10.0 ** np.linspace(-5, -1, 100)])
+    to = np.stack([np.sin(angle), np.zeros_like(angle), np.cos(angle)], axis=1).astype(np.float32)
+    found = call_glsl(f"eval_phase({g}, {UP}, to)", to=to)
+    unit = to.astype(np.float64) / np.linalg.norm(to.astype(np.float64), axis=1, keepdims=True)
+    spread = 1 + g * g - 2 * g * unit[:, 2]
+    assert_allclose(found, (1 - g * g) / (4 * np.pi * spread**1.5), rtol=3e-4)
+
+
+def test_the_depth_of_a_flight_is_a_logarithm(call_glsl: CallGlsl) -> None:
+    u = np.concatenate([np.linspace(0, 1, 100_001)[:-1], 10.0 ** np.linspace(-12, -1, 10_000)])
+    u = np.append(u, BELOW_ONE).astype(np.float32)
+    found = call_glsl("depth_of(u)", u=u)
+    left = (np.float32(1) - u).astype(np.float64)  # what is left of u after rounding
+    assert_allclose(found, -np.log(left), rtol=3e-7, atol=1e-12)
+
+
+def test_light_on_a_way_is_the_integral_of_what_is_left(call_glsl: CallGlsl) -> None:
+    x = (10.0 ** np.linspace(-9, 3, 20_000)).astype(np.float32)
+    found = call_glsl("integral_of_decay(x, 1.5)", x=x)
+    assert_allclose(found, -np.expm1(-1.5 * x.astype(np.float64)) / x, rtol=1e-6)
+    ends = call_glsl("integral_of_decay(x, d)", x=np.array([0.0, 2.0]), d=np.array([3.0, 1e30]))
+    assert ends.tolist() == [3.0, 0.5]
+
+
+FLIGHT = """
+    Flight flight = start_flight(NO_MEDIUM);
+    begin_flight(flight, throughput, rng);
+    Medium medium = Medium(scattering, 0.0, extinction, 0, vec3(0.0), 0);
+    float d = flight.depth / extinction[flight.channel];
+    bool collides = d < end;
+    flight.left *= share_left(extinction, min(d, end));
+    vec3 weight = collides ? weight_of_collision(flight, medium) : weight_of_flight(flight);"""
+
+
+def test_flights_collide_as_often_as_beer_says_in_each_channel(call_glsl: CallGlsl) -> None:
+    """The mean of the throughput that passes a slab is Beer's; no weight exceeds the sum."""
+    throughput, mu = np.array([0.9, 0.3, 0.05]), np.array([0.2, 2.0, 20.0])
+    text = "vec3({}, {}, {})".format
+    setup = RNG + FLIGHT.replace("throughput", text(*throughput), 1)
+    setup = (
+        setup.replace("extinction", text(*mu))
+        .replace("scattering", text(*mu))
+        .replace("end", "0.7")
+    )
+    result = f"vec4({text(*throughput)} * weight, collides ? 1.0 : 0.0)"
+    found = call_glsl(result, "vec4", setup=setup, n=np.arange(DRAWS)).astype(np.float64)
+    assert found[:, :3].max() <= throughput.sum() * (1 + 1e-5)
+    is_met = found[:, 3] > 0
+    for truth, where in ((np.exp(-0.7 * mu), ~is_met), (-np.expm1(-0.7 * mu), is_met)):
+        values = found[:, :3] * where[:, None]
+        far = (values.mean(axis=0) - throughput * truth) / (values.std(axis=0) / DRAWS**0.5)
+        assert (np.abs(far) < 5).all(), far
+
+
+def test_gray_flights_have_no_noise_in_their_weight(call_glsl: CallGlsl) -> None:
+    setup = RNG + FLIGHT.replace("throughput", "vec3(0.9, 0.3, 0.05)", 1)
+    for name, value in (("extinction", "vec3(2.0)"), ("scattering", "vec3(1.5)"), ("end", "0.7")):
+        setup = setup.replace(name, value)
+    found = call_glsl("vec4(weight, collides ? 1.0 : 0.0)", "vec4", setup=setup, n=np.arange(4096))
+    wanted = np.where(found[:, 3:] > 0, 0.75, 1.0)
+    assert_allclose(found[:, :3], np.broadcast_to(wanted, (4096, 3)), rtol=1e-6)
