@@ -36,11 +36,12 @@ from glrt.plan.plan import prepare
 from glrt.rendering.pipelines import Variant
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.schedule import iterations_per_sample
+from glrt.scene.lit_scene import Finish
 from glrt.scene.loading.scene_files import hashes_of
 from glrt.scene.materials.lambertian import Lambertian
 from glrt.scene.materials.light import Light
 from glrt.scene.materials.metal import Metal
-from glrt.scene.scene import Finish, Scene
+from glrt.scene.scene import Scene
 from glrt.scene.scenefile.toml import scene_to_dict
 from glrt.settings import MAX_SAMPLES, Settings, settings_for
 

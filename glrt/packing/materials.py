@@ -14,6 +14,7 @@ from glrt.packing.material_details import conductor_rows, glass_parts, glass_row
 from glrt.plan.facts import SceneFacts
 from glrt.plan.plan import layer_of_group
 from glrt.scene.lights.cone import Cone
+from glrt.scene.lit_scene import Finish
 from glrt.scene.materials.base import Opaque
 from glrt.scene.materials.dielectric import Dielectric
 from glrt.scene.materials.kinds import TYPES
@@ -22,7 +23,6 @@ from glrt.scene.materials.light import Light
 from glrt.scene.materials.metal import Metal
 from glrt.scene.materials.nothing import Nothing
 from glrt.scene.materials.principled import Principled
-from glrt.scene.scene import Finish
 
 Array = np.ndarray[Any, Any]
 

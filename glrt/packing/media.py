@@ -8,7 +8,7 @@ from glrt.packing.kernel_structs import CONSTANTS, STRUCTS
 from glrt.packing.shapes import order_of_kernel
 from glrt.plan.facts import SceneFacts
 from glrt.plan.plan import layer_of_group
-from glrt.scene.scene import media_group
+from glrt.scene.lit_scene import media_group
 
 Array = np.ndarray[Any, Any]
 

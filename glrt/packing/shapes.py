@@ -10,7 +10,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from glrt.packing.kernel_structs import CONSTANTS, STRUCTS
-from glrt.scene.scene import Finish, Scene
+from glrt.scene.lit_scene import Finish
+from glrt.scene.scene import Scene
 from glrt.scene.shapes.box import Box
 from glrt.scene.shapes.cylinder import Cylinder
 from glrt.scene.shapes.disk import Disk

@@ -178,8 +178,8 @@ def check_render(
     check(ways | ({Way.FRAGMENT} if is_fragment else set()))
     if facts.media and METHODS[settings.method].has_probes:
         raise UsageError(
-            f"Method {settings.method} does not go with media ({few(facts.media)}): its probes hold "
-            "the light of surfaces alone. Use the method mis, nee or naive."
+            f"Method {settings.method} does not go with media ({few(facts.media)}): its probes "
+            "hold the light of surfaces alone. Use the method mis, nee or naive."
         )
     if reason := refusal(facts, settings):
         raise UsageError(f"--caustics on does not fit here: {reason}. Leave it out.")

@@ -10,13 +10,14 @@ from glrt.plan.particles import ParticleFacts, is_sampled
 from glrt.scene.coincidence import Coincidence, coincidence_of
 from glrt.scene.glasses import Around, around_camera, glasses_of
 from glrt.scene.instancing import Apart, tree_sizes, with_own_tree
+from glrt.scene.lit_scene import SKY_GROUP, SUN_GROUP, Finish, media_group
 from glrt.scene.materials.base import Opaque
 from glrt.scene.materials.dielectric import Dielectric
 from glrt.scene.materials.kinds import Material, glass_of
 from glrt.scene.materials.metal import Metal
 from glrt.scene.materials.nothing import Nothing
 from glrt.scene.materials.principled import Principled
-from glrt.scene.scene import SKY_GROUP, SUN_GROUP, Finish, Scene, media_group
+from glrt.scene.scene import Scene
 from glrt.scene.shapes.kinds import KINDS, SAMPLED
 from glrt.scene.shapes.mesh import Mesh
 from glrt.scene.values import Radiance
@@ -149,11 +150,10 @@ class SceneFacts:
         """Name of the medium around the camera; None for vacuum."""
         return medium_around(self.scene, np.array(self.scene.camera.position, np.float64))
 
-    @property
+    @cached_property
     def media(self) -> list[str]:
         """Names of the media that fill an object, or all of space."""
-        used = {self.scene.medium, *(bounds.inside for bounds in self.bounds)}
-        return [name for name in self.scene.media if name in used]
+        return self.scene.media_in_use
 
     @property
     def passed(self) -> list[str]:

@@ -16,8 +16,9 @@ from glrt.plan.features import Needs, needs_of
 from glrt.plan.particles import Ball
 from glrt.plan.probe_grid import Grid, grid_of
 from glrt.scene.instancing import Apart, after_moves
+from glrt.scene.lit_scene import SKY_GROUP, SUN_GROUP
 from glrt.scene.nameless import less_names
-from glrt.scene.scene import SKY_GROUP, SUN_GROUP, Scene
+from glrt.scene.scene import Scene
 from glrt.scene.values import Radiance
 from glrt.settings import Cost, Settings, cost_of_change
 

@@ -83,7 +83,7 @@ class DeviceScene:
         variant = options.variant.constants
         stack = {"TREE_STACK": self._tree.stack if self._tree else 0}
         self._constants = {**plan.needs.constants(), **plan.constants(), **stack, **variant}
-        # Rounds of loops are counted beforehand, but for trees and passed surfaces they are guessed.
+        # Rounds of loops through trees and passed surfaces are a guess: samples may be lost.
         self._may_lose = plan.facts.has_trees or bool(plan.facts.passed)
         self.tier = tier_for(self._arrays, options.tier)
         self._texts = self._texts_of(self.tier)

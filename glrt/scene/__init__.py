@@ -23,6 +23,7 @@ Modules, each importing only what stands above it:
 - nesting: glasses that overlap by priority
 - misfits: parts that do not go together
 - twins: objects that coincide
+- lit_scene: the light of a scene: groups, and what emits how much
 - scene: the scene, with checks across its parts
 - coincidence: lamps that coincide with other surfaces
 - nameless: scenes compared without the names of their parts

@@ -5,10 +5,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from glrt.scene.lit_scene import Finish
 from glrt.scene.materials.dielectric import Dielectric
 from glrt.scene.materials.kinds import glass_of
 from glrt.scene.nesting import BITS
-from glrt.scene.scene import Finish, Scene
+from glrt.scene.scene import Scene
 from glrt.scene.values import BLACK, Color
 
 Array = np.ndarray[Any, Any]

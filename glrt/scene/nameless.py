@@ -3,9 +3,10 @@
 from collections.abc import Callable, Collection
 from typing import TypeVar
 
+from glrt.scene.lit_scene import SKY_GROUP, SUN_GROUP
 from glrt.scene.materials.base import Opaque
 from glrt.scene.materials.kinds import Material
-from glrt.scene.scene import SKY_GROUP, SUN_GROUP, Scene
+from glrt.scene.scene import Scene
 from glrt.scene.shapes.kinds import Shape
 
 T = TypeVar("T")

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Any, NamedTuple, Self
+from typing import Any, Self
 
 from pydantic import model_validator
 
@@ -14,43 +14,22 @@ from glrt.scene.camera import Camera
 from glrt.scene.files.assets import AssetFolder
 from glrt.scene.frames import animation_problems, with_values
 from glrt.scene.lights.background import Background
-from glrt.scene.lights.sky_image import SkyPicture, sky_picture
 from glrt.scene.lights.sun import Sun
+from glrt.scene.lit_scene import SKY_GROUP, SUN_GROUP, LitScene
 from glrt.scene.loading.file_copies import copy_files
 from glrt.scene.loading.scene_files import with_files
-from glrt.scene.materials.base import Opaque
 from glrt.scene.materials.kinds import Material
 from glrt.scene.medium import Medium
 from glrt.scene.misfits import medium_problems, object_problems, sun_problems
 from glrt.scene.nesting import nesting_problems
-from glrt.scene.schema.fields import SceneFields
 from glrt.scene.schema.tables import to_tables, toml_text
 from glrt.scene.schema.validation import MisfitError, Place, validated
-from glrt.scene.shapes.base import Object
 from glrt.scene.shapes.kinds import Shape
-from glrt.scene.shapes.mesh import Mesh
-from glrt.scene.twins import shown
-from glrt.scene.values import BLACK, LARGEST, Number, Radiance
+from glrt.scene.values import LARGEST, Number
 from glrt.settings import RenderSettings
 
-SKY_GROUP = "background"
-SUN_GROUP = "sun"
 
-
-def media_group(name: str) -> str:
-    """Return the light group of the emission of a medium."""
-    return f"media.{name}"
-
-
-class Finish(NamedTuple):
-    """Material, light group and emitting side of an object; a material may have several."""
-
-    material: str
-    group: str = ""  # light group of its emission; empty if it emits nothing
-    is_one_sided: bool = False  # whether it emits from its front alone
-
-
-class Scene(SceneFields):
+class Scene(LitScene):
     """The contents of a scene file."""
 
     @classmethod
@@ -132,105 +111,6 @@ class Scene(SceneFields):
         """The scene without its animation, with the values that it holds itself."""
         return self.model_copy(update={"animation": None}) if self.animation else self
 
-    @property
-    def shown(self) -> tuple[int, ...]:
-        """Numbers of the objects that rays can meet: not hidden, and not covered by a twin."""
-        return shown(self.objects, self.materials)
-
-    @property
-    def visible(self) -> tuple[Shape, ...]:
-        """The objects that rays can meet."""
-        return tuple(self.objects[n] for n in self.shown)
-
-    @property
-    def meshes(self) -> tuple[Mesh, ...]:
-        """The visible meshes."""
-        return tuple(thing for thing in self.visible if isinstance(thing, Mesh))
-
-    def finish(self, thing: Object) -> Finish:
-        """Return the finish of an object's surface."""
-        return self._finish(thing.material, thing.group, thing.is_one_sided)
-
-    def _finish(self, name: str, group: str | None, is_one_sided: bool) -> Finish:
-        material = self.materials.get(name)  # a missing one is reported elsewhere
-        if not isinstance(material, Opaque) or not material.emits:
-            return Finish(name)
-        return Finish(name, group or material.group or name, is_one_sided)
-
-    def _finishes(self, things: Iterable[Object]) -> list[Finish]:
-        """Return the finishes of objects, each once, in the order of materials in the file."""
-        places = {name: place for place, name in enumerate(self.materials)}
-        told = dict.fromkeys((it.material, it.group, it.is_one_sided) for it in things)
-        found = dict.fromkeys(self._finish(*one) for one in told)
-        return sorted(found, key=lambda finish: places.get(finish.material, -1))
-
-    @property
-    def finishes(self) -> list[Finish]:
-        """Finishes of the visible objects, each once, in the order of materials in the file."""
-        return self._finishes(self.visible)
-
-    @property
-    def light_groups(self) -> dict[str, float]:
-        """Intensity of every light group: the lamps' groups in order, then sun and background."""
-        suns = [SUN_GROUP] if self.sun else []
-        media = [media_group(name) for name, medium in self.media.items() if medium.emits]
-        groups = [*self._lamp_groups(), *media, *suns, SKY_GROUP]
-        return {group: self._intensity(group) for group in groups}
-
-    @property
-    def background_colors(self) -> tuple[Radiance, ...]:
-        """Radiance of the background's gradient, from below to above, intensity included."""
-        intensity = self._intensity(SKY_GROUP)
-        return tuple(_scaled(color, intensity) for color in self.background.gradient)
-
-    @property
-    def sun_radiance(self) -> Radiance:
-        """Radiance of the sun, intensity included; black without a sun."""
-        if self.sun is None:
-            return BLACK
-        return _scaled(self.sun.radiance(self.sun_irradiance), self._intensity(SUN_GROUP))
-
-    @property
-    def sun_irradiance(self) -> Radiance:
-        """Irradiance of a surface that faces the sun, at intensity 1: given, or the sky model's."""
-        sky = self.background.sky
-        if self.sun is None:
-            return BLACK
-        return self.sun.irradiance or (sky.sun(self.sun.towards) if sky else BLACK)
-
-    @property
-    def sky(self) -> SkyPicture | None:
-        """The image of the sky in all directions; None for a background of colour or gradient."""
-        return sky_picture(self.background, self.sun)
-
-    def emission(self, finish: Finish) -> Radiance:
-        """Return the radiance of a finish, its group's intensity included; black if no lamp."""
-        material = self.materials.get(finish.material)
-        if not finish.group or not isinstance(material, Opaque):
-            return BLACK
-        return _scaled(material.emission, self._intensity(finish.group))
-
-    def emission_of_medium(self, name: str) -> Radiance:
-        """Return the radiance of a medium per unit of length, its group's intensity included."""
-        return _scaled(self.media[name].emission, self._intensity(media_group(name)))
-
-    def emission_of(self, thing: Object) -> Radiance:
-        """Return the radiance of an object, intensity of its light group included."""
-        return self.emission(self.finish(thing))
-
-    def _intensity(self, group: str) -> float:
-        return self.lights.get(group, 1.0)
-
-    def _lamp_groups(self) -> Iterator[str]:
-        """Yield the lamps' groups by material; a lamp material that no object uses has one, too."""
-        found: dict[str, dict[str, None]] = {name: {} for name in self.materials}
-        for finish in self._finishes(self.objects):
-            if finish.group:
-                found[finish.material][finish.group] = None
-        for name, material in self.materials.items():
-            if isinstance(material, Opaque) and material.emits:
-                yield from found[name] or (material.group or name,)
-
     @model_validator(mode="after")
     def _fits_together(self) -> Self:
         nesting = nesting_problems(self.materials, self.visible)
@@ -263,10 +143,6 @@ def with_lights(scene: Scene, intensities: Mapping[str, float]) -> Scene:
     for place, text in _light_problems(relit):
         raise SceneError(f"Light group {quoted(str(place[1]))}: {text}.")
     return relit
-
-
-def _scaled(color: Radiance, factor: float) -> Radiance:
-    return (color[0] * factor, color[1] * factor, color[2] * factor)
 
 
 def _light_problems(scene: Scene) -> Iterator[tuple[Place, str]]:
@@ -303,10 +179,7 @@ def _too_bright(what: str) -> str:
 
 
 def _emptiness(scene: Scene) -> Iterator[tuple[Place, str]]:
-    shines = scene.sun or any(map(any, scene.background.gradient)) or _glows(scene)
+    glows = any(scene.media[name].emits for name in scene.media_in_use)
+    shines = scene.sun or any(map(any, scene.background.gradient)) or glows
     if not scene.visible and not shines:
         yield (), "there is nothing to see: add an object, or a background that is not black"
-
-
-def _glows(scene: Scene) -> bool:
-    return scene.medium in scene.media and scene.media[scene.medium or ""].emits

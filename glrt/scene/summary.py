@@ -3,9 +3,10 @@
 from collections.abc import Iterable, Iterator
 
 from glrt.core.text import counted, number, shortened
+from glrt.scene.lit_scene import SKY_GROUP
 from glrt.scene.materials.base import Opaque
 from glrt.scene.materials.kinds import TYPES
-from glrt.scene.scene import SKY_GROUP, Scene
+from glrt.scene.scene import Scene
 from glrt.scene.shapes.kinds import KINDS
 from glrt.scene.shapes.mesh import Mesh
 

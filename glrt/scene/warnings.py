@@ -42,6 +42,7 @@ def cautions(scene: Scene, settings: Settings) -> list[str]:
         *_glass(scene),
         _walled_in(scene),
         _dark(scene),
+        _endless(scene),
         _twins(scene),
         _shared_places(scene),
         *_repeated(scene),
@@ -171,7 +172,8 @@ def _walled_in(scene: Scene) -> str:
 def is_dark(scene: Scene) -> bool:
     """Return whether nothing emits, so that the picture is certain to be black."""
     emits = any(any(scene.emission(finish)) for finish in scene.finishes)
-    return not (emits or any(map(any, (scene.sun_radiance, *scene.background_colors))))
+    glows = any(any(scene.emission_of_medium(name)) for name in scene.media_in_use)
+    return not (emits or glows or any(map(any, (scene.sun_radiance, *scene.background_colors))))
 
 
 def _dark(scene: Scene) -> str:
@@ -186,6 +188,21 @@ def _dark(scene: Scene) -> str:
     return (
         "there is no light in this scene: no lamp emits and the background is black, so the "
         f"picture is black, with an estimated error of 0 %. {remedy}."
+    )
+
+
+def _endless(scene: Scene) -> str:
+    """Warn of a medium without an end, which hides what is infinitely far away."""
+    medium = scene.media.get(scene.medium or "")
+    skies = [
+        *(["background"] if any(map(any, scene.background.gradient)) else []),
+        *(["sun"] if scene.sun else []),
+    ]
+    if medium is None or not any(medium.extinction) or not skies:
+        return ""
+    return (
+        f"medium {quoted(scene.medium or '')} is everywhere, so no light comes from infinitely far "
+        f"away: {' and '.join(skies)} cannot be seen. Put it into an object around the scene."
     )
 
 

@@ -7,13 +7,14 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from glrt.core.errors import SceneError
+from glrt.scene.lit_scene import Finish
 from glrt.scene.materials.base import Opaque
 from glrt.scene.materials.dielectric import Dielectric
 from glrt.scene.materials.facets import facet_loss
 from glrt.scene.materials.lambertian import Lambertian
 from glrt.scene.materials.metal import Metal
 from glrt.scene.materials.principled import Principled
-from glrt.scene.scene import Finish, Scene
+from glrt.scene.scene import Scene
 from glrt.scene.shapes.box import Box
 from glrt.scene.shapes.cylinder import Cylinder
 from glrt.scene.shapes.disk import Disk

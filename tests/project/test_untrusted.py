@@ -222,7 +222,18 @@ def test_an_exr_that_claims_a_trillion_pixels_is_refused_by_its_header(tmp_path:
 def test_the_keys_of_a_scene_that_are_paths_are_known() -> None:
     """The rest are numbers and names. Paths go through scene/assets.py."""
     assert texts_of(Scene.model_json_schema()) == {
-        *("title", "name", "material", "group", "image", "file", "part", "target", "animation"),
+        *(
+            "title",
+            "name",
+            "material",
+            "medium",
+            "group",
+            "image",
+            "file",
+            "part",
+            "target",
+            "animation",
+        ),
     }
 
 

@@ -12,12 +12,13 @@ import pytest
 from glrt.core.errors import SceneError
 from glrt.scene.camera import Camera
 from glrt.scene.lights.background import Background
+from glrt.scene.lit_scene import Finish
 from glrt.scene.materials.dielectric import Dielectric
 from glrt.scene.materials.kinds import TYPES
 from glrt.scene.materials.lambertian import Lambertian
 from glrt.scene.materials.light import Light
 from glrt.scene.materials.metal import Metal
-from glrt.scene.scene import Finish, Scene, with_lights
+from glrt.scene.scene import Scene, with_lights
 from glrt.scene.scenefile.toml import parse_scene, read_scene, scene_to_dict
 from glrt.scene.shapes.kinds import KINDS
 from glrt.scene.shapes.plane import Plane

@@ -12,6 +12,7 @@ import pytest
 from glrt.core.errors import SceneError
 from glrt.scene.scenefile.toml import parse_scene, read_scene
 from tests.support.bad_lamps import BAD_LAMPS
+from tests.support.bad_media import BAD_MEDIA
 from tests.support.bad_scenes import BAD_SCENES, GOOD_SCENE, BadScene
 
 JARGON = (
@@ -39,7 +40,7 @@ def test_a_mark_of_the_byte_order_and_windows_lines_are_read(tmp_path: Path) -> 
     assert read_scene(path) == parse_scene(tomllib.loads(GOOD_SCENE), "test")
 
 
-@pytest.mark.parametrize("bad", [*BAD_SCENES, *BAD_LAMPS], ids=lambda bad: bad.name)
+@pytest.mark.parametrize("bad", [*BAD_SCENES, *BAD_LAMPS, *BAD_MEDIA], ids=lambda bad: bad.name)
 def test_bad_scene_is_refused_with_advice(bad: BadScene, tmp_path: Path) -> None:
     path = tmp_path / "scene.toml"
     path.write_bytes(bad.content if isinstance(bad.content, bytes) else bad.content.encode())
@@ -52,7 +53,7 @@ def test_bad_scene_is_refused_with_advice(bad: BadScene, tmp_path: Path) -> None
 
 
 def test_bad_scenes_are_many_and_have_names_of_their_own() -> None:
-    names = [bad.name for bad in [*BAD_SCENES, *BAD_LAMPS]]
+    names = [bad.name for bad in [*BAD_SCENES, *BAD_LAMPS, *BAD_MEDIA]]
     assert len(set(names)) == len(names) >= 45
 
 

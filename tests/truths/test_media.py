@@ -1,4 +1,4 @@
-"""Fog, milk and glowing gas against closed forms, and as they should look with and without bounds."""
+"""Fog, milk and glowing gas: against closed forms, and by scenes that mean the same."""
 
 import math
 from typing import Any
@@ -36,7 +36,7 @@ def filled(thing: dict[str, Any], name: str | None = "fog", material: str = "non
     return {**thing, "material": material, **({"medium": name} if name else {})}
 
 
-def ball(radius: float = 1.0) -> dict[str, Any]:
+def ball(radius: float = 1.0) -> Any:
     return filled(sphere([0, 0, 0], radius, ""))
 
 
@@ -95,7 +95,7 @@ def test_gas_of_almost_no_depth_keeps_its_digits(context: Context) -> None:
 
 
 def test_a_floor_under_a_slab_gets_the_exponential_integral(context: Context) -> None:
-    """E = 2 E3(tau) of an even sky of radiance 1, in units of pi (E3: Abramowitz and Stegun 5.1)."""
+    """E = 2 pi E3(tau) under an even sky of radiance 1 (E3: Abramowitz and Stegun 5.1)."""
     things = [
         plane([0, 0, 0], [0, 1, 0], "white"),
         filled(box([-900, 1, -900], [900, 2, 900], "")),
@@ -298,7 +298,7 @@ def test_glass_of_the_index_of_air_is_no_more_than_a_bound(context: Context) -> 
 
 @pytest.mark.parametrize("x", [0.0, 2.0])
 def test_an_object_without_a_medium_holds_vacuum_in_fog(context: Context, x: float) -> None:
-    """Fog all around from a lamp 5 away, and a bubble of it is missing; the camera may stand in it."""
+    """Fog is all around but in a bubble before the camera, or around it; a lamp is 5 away."""
     behind = quad([-9, -9, -5], [18, 0, 0], [0, 18, 0], "lamp")
     bubble = filled(sphere([0, 0, -x], 0.5, ""), None)
     scene = with_fog([behind, bubble], medium(absorption=MU), {"fov": 0.01}, medium="fog")

@@ -30,6 +30,7 @@ from glrt.rendering.pipelines import KernelOptions, Tier
 from glrt.rendering.schedule import dispatch_limits
 from glrt.scene.instancing import Apart
 from glrt.scene.scene import Scene
+from glrt.scene.summary import few
 from glrt.settings import Settings
 
 Array = np.ndarray[Any, Any]
@@ -47,7 +48,7 @@ class PathReplay:
 
     def __init__(self, context: Context, plan: Plan, scene: DeviceScene) -> None:
         """Compile the kernels; UsageError for a method without recorded paths, or RenderError."""
-        check_method(plan.settings)
+        check_followed(plan)
         self._plan = plan
         self._paths = PathRecorder(context, plan, scene, PATHS)
         self._particles: PathRecorder | None = None
@@ -133,8 +134,14 @@ def arrived(records: Sequence[Array]) -> PixelParticles:
     return PixelParticles(len(records), tuple(brought), radiances, ())
 
 
-def check_method(settings: Settings) -> None:
-    """Raise UsageError for a method whose paths are not recorded."""
+def check_followed(plan: Plan) -> None:
+    """Raise UsageError for a method or a scene whose paths are not recorded."""
+    settings = plan.settings
+    if plan.facts.media:
+        raise UsageError(
+            f"paths are not shown in media ({few(plan.facts.media)}): what happens within them is "
+            "not recorded yet. Remove the media to see the paths between surfaces."
+        )
     if METHODS[settings.method].model:
         raise UsageError(
             f"paths are not shown of the method {settings.method}: it is a lighting model, which "
@@ -173,8 +180,8 @@ def path_replay(
     Raises ContextError without OpenGL 4.3, UsageError, RenderError, and SceneError for a scene
     beyond the driver.
     """
-    check_method(settings)
     plan = prepare(scene, settings, apart=apart)
+    check_followed(plan)
     check_render(plan.facts, settings, "none", False, False)
     with ExitStack() as stack:
         if not isinstance(context, Context):

@@ -19,6 +19,7 @@ from glrt.scene.lights.cone import Cone
 from glrt.scene.lights.sun import Sun
 from glrt.scene.materials.kinds import TYPES
 from glrt.scene.materials.textures import NormalTexture, Texture
+from glrt.scene.medium import Medium
 from glrt.scene.probes import Probes
 from glrt.scene.schema.fields import SceneFields
 from glrt.scene.shapes.kinds import KINDS
@@ -38,6 +39,7 @@ _TABLES: dict[str, type[BaseModel]] = {
     "sun": Sun,
     "probes": Probes,
     "animation": Animation,
+    "media": Medium,
 }
 _TRACK = 3  # keys down to a track: a longer location is of a key of it
 _KINDS: dict[str, dict[str, Any]] = {"materials": TYPES, "objects": KINDS}
@@ -213,8 +215,10 @@ _HEADINGS: dict[Place, str] = {
     ("animation", "tracks"): "must be a list of tables, each headed [[animation.tracks]]",
     ("lights",): "must be a table headed [lights]",
     ("materials",): "must be a table of tables, each headed [materials.NAME]",
+    ("media",): "must be a table of tables, each headed [media.NAME]",
     ("objects",): "must be a list of tables, each headed [[objects]]",
 }
+_COUNTED: dict[Place, str] = {("objects",): "shapes", ("media",): "media"}
 
 
 def _own_words(_place: Place, detail: ErrorDetails) -> str:
@@ -233,9 +237,10 @@ def _missing_kind(place: Place, _detail: ErrorDetails) -> str:
 
 
 def _too_long(place: Place, detail: ErrorDetails) -> str:
-    if place != ("objects",):
+    if place not in _COUNTED:
         return f"{_PLAIN['tuple_type']}, got {_shown(detail['input'])}"
-    return f"must be at most {detail['ctx']['max_length']:,} shapes, got {len(detail['input']):,}"
+    most = f"{detail['ctx']['max_length']:,} {_COUNTED[place]}"
+    return f"must be at most {most}, got {len(detail['input']):,}"
 
 
 def _too_small(place: Place, detail: ErrorDetails) -> str:

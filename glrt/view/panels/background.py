@@ -8,7 +8,8 @@ from imgui_bundle import imgui
 from glrt.scene.lights.background import Background
 from glrt.scene.lights.clear_sky import ClearSky
 from glrt.scene.lights.sun import Sun
-from glrt.scene.scene import SKY_GROUP, Scene
+from glrt.scene.lit_scene import SKY_GROUP
+from glrt.scene.scene import Scene
 from glrt.scene.values import Radiance
 from glrt.settings import Cost
 from glrt.view.app import App

@@ -5,9 +5,10 @@ from functools import partial
 from imgui_bundle import imgui
 
 from glrt.core.memo import kept_for_the_same
+from glrt.scene.lit_scene import SKY_GROUP
 from glrt.scene.materials.base import Opaque
 from glrt.scene.materials.light import Light
-from glrt.scene.scene import SKY_GROUP, Scene, with_lights
+from glrt.scene.scene import Scene, with_lights
 from glrt.view.app import App
 from glrt.view.controls import control_of_items, controls_of
 from glrt.view.edits.scene_edits import with_material

@@ -5,7 +5,8 @@ from typing import Literal
 from glrt.core.memo import kept_for_the_same
 from glrt.plan.facts import SceneFacts
 from glrt.plan.plan import MOST_LAYERS, layer_of_group
-from glrt.scene.scene import SKY_GROUP, SUN_GROUP, Finish, Scene
+from glrt.scene.lit_scene import SKY_GROUP, SUN_GROUP, Finish
+from glrt.scene.scene import Scene
 from glrt.scene.values import Radiance
 from glrt.settings import Cost
 from glrt.view.state.session import Session

@@ -5,7 +5,8 @@ from collections.abc import Hashable
 import numpy as np
 
 from glrt.rendering.renderer import Renderer
-from glrt.scene.scene import SKY_GROUP, SUN_GROUP, Scene
+from glrt.scene.lit_scene import SKY_GROUP, SUN_GROUP
+from glrt.scene.scene import Scene
 from glrt.view.edits.state_differences import name_of
 from glrt.view.state.session import Session
 from glrt.view.viewport.orbit import axes

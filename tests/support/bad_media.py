@@ -1,0 +1,72 @@
+"""Scene files whose media must be refused."""
+
+from tests.support.bad_scenes import BadScene, bad
+
+_BALL = 'objects[0] ("left ball")'
+
+
+def _fog(name: str, keys: str, *says: str, material: str = "none", more: str = "") -> BadScene:
+    """The good scene with a medium of these keys in its ball of this material."""
+    return bad(
+        name,
+        'radius = 0.35\nmaterial = "white"\n',
+        f'radius = 0.35\nmaterial = "{material}"\nmedium = "fog"\n{more}\n[media.fog]\n{keys}\n',
+        *says,
+    )
+
+
+def _of_glass(name: str, keys: str, *says: str) -> BadScene:
+    """The same with a ball of glass of these keys."""
+    found = _fog(name, "", *says, material="glass")
+    return found._replace(content=str(found.content).replace("ior = 1.5", f"ior = 1.5\n{keys}"))
+
+
+BAD_MEDIA = [
+    _fog(
+        "light that grows", "scattering = [1, -2, 1]", "media.fog.scattering[1] must be at least 0"
+    ),
+    _fog("absorption of NaN", "absorption = [nan, 1, 1]", "media.fog.absorption[0]", "finite"),
+    _fog(
+        "one number for three", "absorption = 1", "media.fog.absorption", "three numbers", "got 1"
+    ),
+    _fog("light that never turns", "anisotropy = 1", "media.fog.anisotropy", "at most 0.99"),
+    _fog("light that turns back", "anisotropy = -1", "media.fog.anisotropy", "at least -0.99"),
+    _fog("a dark glow", "emission = [0, 0, -1]", "media.fog.emission[2] must be at least 0"),
+    _fog("a key of no medium", "scatering = [1, 1, 1]", "media.fog", "'scattering'?"),
+    _fog("smoke of a file", 'density = "a.npy"', "media.fog: unknown key 'density'"),
+    bad(
+        "a medium that is none", '"white"\n', '"none"\nmedium = "fog"\n', f"{_BALL}.medium", "'fog'"
+    ),
+    bad("an open bound", '"lamp"\n', '"none"\n', "objects[2].material", "this quad encloses none"),
+    _fog("fog in chalk", "", f"{_BALL}.medium", "light does not enter", material="white"),
+    _fog("fog in a lamp", "", f"{_BALL}.medium", "light does not enter", material="lamp"),
+    _of_glass("fog in a pane", "thin = true", f"{_BALL}.medium", "light does not enter"),
+    _of_glass("fog in frosted glass", "roughness = 0.3", f"{_BALL}.medium", "smooth glass"),
+    _of_glass(
+        "fog in tinted glass",
+        "attenuation_color = [0.5, 0.5, 0.5]\nattenuation_distance = 1",
+        f"{_BALL}.medium",
+        "attenuation_color",
+    ),
+    _of_glass("fog with priority", "priority = 1", "materials.glass.priority", "leave it out"),
+    bad(
+        "an endless glow",
+        "format = 1",
+        'format = 1\nmedium = "fog"\nmedia = { fog = { emission = [1, 1, 1] } }',
+        "media.fog.emission",
+        "infinitely bright",
+    ),
+    bad(
+        "nine media",
+        "format = 1",
+        f"format = 1\nmedia = {{ {', '.join(f'm{k} = {{}}' for k in range(9))} }}",
+        "media must be at most 8",
+    ),
+    bad(
+        "a medium below a table",
+        "defocus_angle = 0.0",
+        'defocus_angle = 0.0\nmedium = "fog"',
+        "unknown key 'medium'",
+        "above the first [table]",
+    ),
+]
