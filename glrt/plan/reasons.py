@@ -118,8 +118,8 @@ def coincident(case: Case) -> str:
     """Return how many flat lamps share a place with other surfaces."""
     pairs = len(case.facts.coincidence.pairs)
     if not pairs:
-        return "no flat lamp lies in the plane of another surface and overlaps it"
-    return f"{counted(pairs, 'pair')} of a lamp and another object overlap in one plane"
+        return "no flat lamp or bound of a medium overlaps another surface in one plane"
+    return f"{counted(pairs, 'pair')} of a lamp or bound and another object overlap in one plane"
 
 
 def background(case: Case) -> str:

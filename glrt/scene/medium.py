@@ -29,7 +29,7 @@ class Medium(Value):
         description="mean cosine of the angle by which scattered light turns (Henyey-Greenstein): "
         "0 scatters evenly, above 0 forward",
     )
-    emission: Annotated[Radiance, Editable(Cost.RESTART)] = Field(
+    emission: Annotated[Radiance, Editable(Cost.RECOMPILE)] = Field(
         BLACK,
         description="radiance that it emits per unit of length; it does not depend on `absorption`",
     )

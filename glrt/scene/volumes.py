@@ -159,7 +159,7 @@ def _solid(thing: Shape) -> Shape:
 
 
 def _within_planes(solids: Sequence[Shape]) -> Iterator[tuple[int, int]]:
-    """Yield parallel planes of which the first lies behind the second and faces the same way."""
+    """Yield parallel planes: the first lies behind the second, and both face the same way."""
     planes = [n for n, solid in enumerate(solids) if isinstance(solid, Plane)]
     for a in planes:
         for b in planes:

@@ -219,7 +219,7 @@ def _twins(scene: Scene) -> str:
 
 
 def _shared_places(scene: Scene) -> str:
-    """Warn of flat lamps that overlap other surfaces in one plane."""
+    """Warn of flat lamps, and bounds of volumes, that overlap other surfaces in one plane."""
     pairs = coincidence_of(scene).pairs
     if not pairs:
         return ""
@@ -227,9 +227,9 @@ def _shared_places(scene: Scene) -> str:
         f"{_name(scene, a)} overlaps {_name(scene, b) if a != b else 'itself'}" for a, b in pairs
     )
     return (
-        f"{overlaps} in one plane, and one of the two emits. A place shows one surface there: the "
-        "one that emits towards the ray, or else the one of the lower number. The scene renders "
-        "faster if you move one of them by a thousandth of its size."
+        f"{overlaps} in one plane, and one of the two emits or is no surface. A place shows one "
+        "surface there: the one that emits towards the ray, or else the one of the lower number. "
+        "The scene renders faster if you move one of them by a thousandth of its size."
     )
 
 

@@ -1,4 +1,4 @@
-"""Which medium lies where: volumes apart, within each other, and those that are refused."""
+"""Which medium lies where: in volumes apart, in volumes within each other, and refusals."""
 
 from typing import Any
 

@@ -7,9 +7,11 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from glrt.scene.materials.base import Opaque
+from glrt.scene.materials.dielectric import Dielectric
 from glrt.scene.materials.kinds import TYPES, Material
 from glrt.scene.materials.lambertian import Lambertian
 from glrt.scene.materials.metal import Metal
+from glrt.scene.materials.nothing import Nothing
 from glrt.scene.scene import Scene
 from glrt.scene.shapes.kinds import Shape
 from glrt.view.controls import made, replaced
@@ -58,6 +60,12 @@ def with_material(scene: Scene, name: str, **changes: Any) -> Scene:
 
 def with_retyped(scene: Scene, name: str, kind: str) -> Scene:
     """Return the scene with another type of a material; values that both types have stay."""
+    if TYPES[kind] not in (Dielectric, Nothing):  # light does not enter other materials
+        emptied = (
+            replaced(it, medium=None) if it.medium and it.material == name else it
+            for it in scene.objects
+        )
+        scene = scene.model_copy(update={"objects": tuple(emptied)})
     return _with_materials(scene, {name: retyped(scene.materials[name], kind)})
 
 

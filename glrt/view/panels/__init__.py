@@ -14,6 +14,7 @@ Modules, each importing only what stands above it:
 - compare: displayed view, and the reference picture
 - lights: light groups and their lamps
 - materials: material of the selected object
+- media: medium in the selected object
 - inspector: pixels and the histogram
 - objects: selected object, and new ones
 - files: open and save

@@ -16,6 +16,7 @@ from glrt.view.controls import controls_of, replaced
 from glrt.view.edits.new_objects import ADDED
 from glrt.view.edits.scene_edits import with_object, with_own_group
 from glrt.view.panels.materials import draw_material
+from glrt.view.panels.media import draw_medium
 from glrt.view.widgets.cost_badges import tag
 from glrt.view.widgets.fields import beside, button, edited_fields, named, room_for, tip
 from glrt.view.widgets.steady_widget import ANCHOR
@@ -37,6 +38,7 @@ def draw_object(app: App) -> None:
     _buttons(app, shape)
     _name_of(app, app.selected, shape)
     _shape(app, app.selected, shape)
+    draw_medium(app, app.selected, shape)
     imgui.separator_text(f"material of {_name(app.selected, shape)}")
     draw_material(app, app.selected, shape)
 
