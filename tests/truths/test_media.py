@@ -388,3 +388,23 @@ def test_an_icosahedron_of_fog_is_nearly_a_ball(context: Context) -> None:
     first, second = (whole(rendered(it, context, 64)).mean for it in scenes)
     assert_allclose(second, first, rtol=0.01)
     assert (second < first).all()
+
+
+def test_a_medium_in_glass_shines_through_fog(context: Context) -> None:
+    """Along the axis: the face of the glass lets through its share, fog what Beer leaves."""
+    glow, dim = np.array([1.0, 2.0, 3.0]), np.array([0.2, 0.5, 1.0])
+    block = filled(box([-90, -90, -6], [90, 90, -4], ""), "glow", "glass")
+    scene = scene_of(
+        [block],
+        {"glass": glass(1.5)},
+        {"fov": 0.01},
+        media={
+            "fog": medium(scattering=0.3 * MU, absorption=0.1),
+            "glow": medium(absorption=dim, emission=glow.tolist()),
+        },
+        medium="fog",
+    )
+    image = rendered(scene, context, 8192, method="naive", bounces=1, sampler="sobol")
+    inside = glow * -np.expm1(-2 * dim) / dim  # one way through it: a bounce ends at its back
+    truth = np.exp(-4 * (0.3 * MU + 0.1)) * 0.96 / 1.5**2 * inside
+    assert_mean(whole(image), truth, 0.05)
