@@ -19,7 +19,7 @@ from glrt.gpu.context import Context, open_context
 from glrt.plan.facts import SceneFacts
 from glrt.plan.features import needs_of
 from glrt.rendering.shader_functions import Expression, World, evaluate
-from glrt.scene import scene as scene_module
+from glrt.scene import lit_scene
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for
 from tests.support import profiles
@@ -151,4 +151,4 @@ def twins_stay(monkeypatch: pytest.MonkeyPatch) -> None:
         del materials
         return tuple(range(len(objects)))
 
-    monkeypatch.setattr(scene_module, "shown", shown)
+    monkeypatch.setattr(lit_scene, "shown", shown)

@@ -15,22 +15,21 @@ Array = np.ndarray[Any, Any]
 
 def medium_row(facts: SceneFacts, name: str | None) -> int:
     """Return the row of a medium in the array of the struct Medium; NO_MEDIUM for vacuum."""
-    return facts.media.index(name) if name is not None else CONSTANTS["NO_MEDIUM"]
+    return facts.media.names.index(name) if name is not None else CONSTANTS["NO_MEDIUM"]
 
 
 def pack_media(facts: SceneFacts) -> dict[str, Array]:
     """Return rows of the structs Medium and Boundary, by name; none in a scene without media."""
-    layers, names = layer_of_group(facts), facts.media
+    layers, names = layer_of_group(facts), facts.media.names
     media = np.zeros(len(names), STRUCTS["Medium"])
     for row, name in zip(media, names, strict=True):
         medium = facts.scene.media[name]
         row["scattering"], row["extinction"] = medium.scattering, medium.extinction
         row["anisotropy"], row["emission"] = medium.anisotropy, facts.scene.emission_of_medium(name)
         row["layer"] = layers.get(media_group(name), 0)
-    bounds = facts.bounds if names else ()
-    rows = np.zeros(len(bounds), STRUCTS["Boundary"])
+    rows = np.zeros(len(facts.media.bounds), STRUCTS["Boundary"])
     number_of = {number: place for place, number in enumerate(order_of_kernel(facts.scene))}
-    for row, (number, inside, outside) in zip(rows, bounds, strict=True):
+    for row, (number, inside, outside) in zip(rows, facts.media.bounds, strict=True):
         row["object"] = number_of[number]
         row["inside"], row["outside"] = medium_row(facts, inside), medium_row(facts, outside)
     return {"Medium": media, "Boundary": rows}

@@ -140,7 +140,7 @@ def pack_frame(
         "first_tile": dispatch.first_tile,
         "tile_stride": dispatch.tile_stride,
         "is_empty": int(dispatch.is_empty),
-        "camera_medium": medium_row(plan.facts, plan.facts.camera_medium),
+        "camera_medium": medium_row(plan.facts, plan.facts.media.around_camera),
         "coincident_reach": _coincident_reach(plan.facts),
         **frame_fields(tree, np.array(scene.camera.position, np.float64)),
     }

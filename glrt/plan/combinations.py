@@ -176,10 +176,10 @@ def check_render(
     ways = ways_of(settings, layering)
     ways |= {Way.PART} if is_part else set()
     check(ways | ({Way.FRAGMENT} if is_fragment else set()))
-    if facts.media and METHODS[settings.method].has_probes:
+    if facts.media.names and METHODS[settings.method].has_probes:
         raise UsageError(
-            f"Method {settings.method} does not go with media ({few(facts.media)}): its probes "
-            "hold the light of surfaces alone. Use the method mis, nee or naive."
+            f"Method {settings.method} does not go with media ({few(facts.media.names)}): its "
+            "probes hold the light of surfaces alone. Use the method mis, nee or naive."
         )
     if reason := refusal(facts, settings):
         raise UsageError(f"--caustics on does not fit here: {reason}. Leave it out.")
@@ -218,7 +218,7 @@ def _refusals(facts: SceneFacts, settings: Settings) -> Iterator[str]:
         yield "some surfaces have holes, which particles do not follow yet"
     if _shines_in_tinted_glass(facts) or _sun_shines_in_it(facts):
         yield "a lamp, sun or sky is in tinted glass or one with a priority: none starts there"
-    if facts.media:
+    if facts.media.names:
         yield "the scene has media, which particles do not follow yet"
     if facts.camera_glass.counts:
         yield "the camera is in glass with a priority, where nothing is linked to it"

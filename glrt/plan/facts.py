@@ -4,8 +4,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cached_property
 
-import numpy as np
-
+from glrt.plan.media import MediaFacts
 from glrt.plan.particles import ParticleFacts, is_sampled
 from glrt.scene.coincidence import Coincidence, coincidence_of
 from glrt.scene.glasses import Around, around_camera, glasses_of
@@ -21,7 +20,6 @@ from glrt.scene.scene import Scene
 from glrt.scene.shapes.kinds import KINDS, SAMPLED
 from glrt.scene.shapes.mesh import Mesh
 from glrt.scene.values import Radiance
-from glrt.scene.volumes import Bounds, bounds_of, medium_around
 
 TREE_FROM = 33  # bounded shapes: more than are baked; a BVH pays from here (docs/results/speed.md)
 SPHERES_FROM = 33  # spheres: from here on a BVH of their own is faster
@@ -140,20 +138,9 @@ class SceneFacts:
         return around_camera(self.scene, self.glasses)
 
     @cached_property
-    def bounds(self) -> tuple[Bounds, ...]:
-        """The bounds of volumes, in a scene with media."""
-        shown = set(self.scene.shown)
-        return tuple(it for it in bounds_of(self.scene) if it.number in shown)
-
-    @cached_property
-    def camera_medium(self) -> str | None:
-        """Name of the medium around the camera; None for vacuum."""
-        return medium_around(self.scene, np.array(self.scene.camera.position, np.float64))
-
-    @cached_property
-    def media(self) -> list[str]:
-        """Names of the media that fill an object, or all of space."""
-        return self.scene.media_in_use
+    def media(self) -> MediaFacts:
+        """Facts about the media between surfaces."""
+        return MediaFacts(self.scene)
 
     @property
     def passed(self) -> list[str]:

@@ -113,10 +113,10 @@ class Needs:
     has_transmission_map: bool = _textured("textured transmission", "transmission")
     has_hole: bool = _made_of("alpha below 1 or none", "holes", lambda it: it.passed)
     has_media: bool = _row(  # paths fly through media
-        lambda it: bool(it.facts.media) and not it.traits.model, "media", reasons.media
+        lambda it: bool(it.facts.media.names) and not it.traits.model, "media", reasons.media
     )
     boundaries: int = _row(  # objects that bound a volume, in a scene with media
-        lambda it: len(it.facts.bounds) if it.facts.media else 0, most=0
+        lambda it: len(it.facts.media.bounds), most=0
     )
     has_mirror: bool = _row(
         lambda it: (

@@ -50,7 +50,7 @@ def _omissions(facts: SceneFacts, method: str) -> Iterator[str]:
         not material.is_transparent and (material.type != "light" or any(material.color))
         for material in materials
     )
-    if facts.media:
+    if facts.media.names:
         yield "media neither scatter, absorb nor emit light"
     if is_local and any(metal.alpha == 0 for metal in metals):
         yield "mirrors reflect nothing"

@@ -51,7 +51,8 @@ def metals(is_rough: bool) -> Callable[[Case], list[str]]:
 
 def media(case: Case) -> str:
     """Return the media that paths fly through."""
-    return f"filled with {few(case.facts.media)}" if case.facts.media else "no medium fills space"
+    names = case.facts.media.names
+    return f"filled with {few(names)}" if names else "no medium fills space"
 
 
 def by_method(case: Case) -> str:

@@ -72,7 +72,7 @@ def iterations_per_sample(plan: Plan, tree_rounds: float = TREE_ROUNDS) -> int:
         rays, choice = rays + 1, choice + levels + 1
     rays += traits.samples_lights and plan.scene.sun is not None
     segments = (settings.bounces + 1) * (1 + _passed(facts))
-    bounds = 2 + len(facts.bounds) if plan.needs.has_media else 0  # looked up at each that is met
+    bounds = 2 + len(facts.media.bounds) if plan.needs.has_media else 0  # to look one up
     return 1 + segments * (1 + rays * (search + bounds) + choice)
 
 

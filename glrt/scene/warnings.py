@@ -194,10 +194,8 @@ def _dark(scene: Scene) -> str:
 def _endless(scene: Scene) -> str:
     """Warn of a medium without an end, which hides what is infinitely far away."""
     medium = scene.media.get(scene.medium or "")
-    skies = [
-        *(["background"] if any(map(any, scene.background.gradient)) else []),
-        *(["sun"] if scene.sun else []),
-    ]
+    sky = ["background"] if any(map(any, scene.background.gradient)) else []
+    skies = [*sky, *(["sun"] if scene.sun else [])]
     if medium is None or not any(medium.extinction) or not skies:
         return ""
     return (

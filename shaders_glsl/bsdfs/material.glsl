@@ -1,5 +1,5 @@
 // The choice of a BSDF by the kind of a material. Each kind is named in sample_material and, unless it
-// is a delta, in eval_material and pdf_material; MATTE is the remaining kind.
+// is a delta, in eval_material and pdf_material; MATTE is the remaining kind. Light passes NONE before a BSDF is chosen.
 
 bool is_delta(Material material) {
     if (HAS_DIELECTRIC && material.kind == DIELECTRIC) return !is_rough_glass(material);

@@ -74,11 +74,10 @@ int medium_behind(int medium, int object, bool enters) {
 // (1 - exp(-x d)) / x: the integral of what is left of light, over the distance d. The series is right to 2e-8.
 float integral_of_decay(float x, float d) {
     float depth = x * d;
-    if (depth > 0.1) return (1.0 - decay(depth)) / x;
     float p = 1.0 / 24.0 - depth / 120.0;
     p = 1.0 / 6.0 - p * depth;
     p = 0.5 - p * depth;
-    float integral = d * (1.0 - p * depth);
+    float integral = depth > 0.1 ? (1.0 - decay(depth)) / x : d * (1.0 - p * depth);
     return integral;
 }
 

@@ -19,6 +19,7 @@ from glrt.gpu.program import Kernel
 from glrt.plan.facts import MOST_NEAR, SPHERES_FROM, TREE_FROM, SceneFacts
 from glrt.plan.features import Needs, needs_of
 from glrt.scene import instancing
+from glrt.scene.medium import Medium
 from glrt.settings import settings_for
 from tests.support.builders import (
     EVERYTHING,
@@ -134,7 +135,7 @@ def needs_with(flags: set[str]) -> Needs:
     made_of |= {"HAS_ROUGH_GLASS": "frosted", "HAS_PANE": "pane"}
     made_of |= {"HAS_PRINCIPLED": "plastic", "HAS_COAT": "painted", "HAS_TRANSMISSION": "wax"}
     made_of |= {"HAS_ATTENUATION": "tinted", "HAS_NESTED": "water"}
-    made_of |= {"HAS_COLOR_MAP": "checked", "HAS_EMISSION_MAP": "glowing"}
+    made_of |= {"HAS_NONE": "none", "HAS_COLOR_MAP": "checked", "HAS_EMISSION_MAP": "glowing"}
     made_of |= {"HAS_GLOSS_MAP": "worn", "HAS_NORMAL_MAP": "bumpy"}
     made_of |= {"HAS_COVERAGE_MAP": "torn", "HAS_HOLE": "gauze", "HAS_TRANSMISSION_MAP": "label"}
     objects = [body(name) for flag, name in made_of.items() if flag in flags]
@@ -168,6 +169,8 @@ def needs_with(flags: set[str]) -> Needs:
         background=sky_with(flags),
         **({"sun": {"elevation": 40, "irradiance": [1, 1, 1]}} if "HAS_SUN" in flags else {}),
     )
+    if "HAS_MEDIA" in flags:  # without the checks: glass with a priority does not go with media
+        scene = scene.model_copy(update={"media": {"fog": Medium()}, "medium": "fog"})
     samples = bool(flags & {"SAMPLE_LIGHTS", "SAMPLE_SUN"})
     method = "mis" if "WEIGHT_BOTH" in flags else "nee" if samples else "naive"
     settings = settings_for(

@@ -261,7 +261,8 @@ def nameless_kinds(shaders: Path) -> list[str]:
         is_delta = f"if (HAS_{kind} && material.kind == {kind}) return true" in bodies["is_delta"]
         names = ["sample", *([] if is_delta else ["eval", "pdf"])]
         missing = [n for n in names if not re.search(rf"\b{kind}\b", bodies[f"{n}_material"])]
-        found += [f"{kind}: {name}_material" for name in missing if kind != "MATTE"]
+        is_chosen = kind not in ("MATTE", "NONE")  # the kind that is left, and no surface
+        found += [f"{kind}: {name}_material" for name in missing if is_chosen]
     return found
 
 

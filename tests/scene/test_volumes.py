@@ -73,7 +73,7 @@ def test_a_place_has_the_medium_of_the_innermost_volume(place: float, name: str 
     assert medium_around(found, np.array([0.0, 0.0, place])) == name
     eye = {"position": [0, 0, place], "look_at": [0, 1, place], "up": [0, 0, 1]}
     moved = scene(ball(3), ball(0.5, "milk"), ball(0.1, None), medium="air", camera=eye)
-    assert SceneFacts(moved).camera_medium == name
+    assert SceneFacts(moved).media.around_camera == name
 
 
 def test_without_media_nothing_is_asked_of_glass() -> None:

@@ -1,4 +1,4 @@
-"""Six scenes that together use every feature of the kernel, and the settings that ask for them.
+"""Eight renders that together use every feature of the kernel, and the settings that ask for them.
 
 tests/rendering/test_equal_bits.py renders each in every way, and fails if a feature is in none.
 """
@@ -126,6 +126,26 @@ def pictured() -> Scene:
     )
 
 
+def hazy() -> Scene:
+    """Two media within each other, one of them in glass, under a lamp, a sun and a sky."""
+    white, grey = {"type": "dielectric", "ior": 1.4}, {"type": "lambertian", "color": [0.5] * 3}
+    fog = {"scattering": [0.4, 0.5, 0.7], "absorption": [0.1, 0.0, 0.2], "anisotropy": 0.4}
+    milk = {"scattering": [3, 2, 1], "emission": [0.1, 0.2, 0.1], "anisotropy": -0.3}
+    return scene_of(
+        [
+            plane([0, -1, 0], [0, 1, 0], "grey"),
+            {**box([-2, -1.5, -6], [2, 1.5, -2], "none"), "medium": "fog"},
+            {**sphere([0.4, 0, -4], 0.6, "glass"), "medium": "milk"},
+            quad([-0.5, 1, -4], [1, 0, 0], [0, 0, 1], "lamp"),
+        ],
+        {"glass": white, "grey": grey, "lamp": lamp(5.0)},
+        {"fov": 50},
+        media={"fog": fog, "milk": milk},
+        sun=SUN,
+        background={"bottom": [0.1, 0.1, 0.1], "top": [0.2, 0.3, 0.5]},
+    )
+
+
 RENDERS: dict[str, tuple[Scene, dict[str, Any]]] = {
     "still life": (still_life(), {"method": "mis"}),
     "still life by a model": (still_life(), {"method": "whitted"}),
@@ -134,4 +154,5 @@ RENDERS: dict[str, tuple[Scene, dict[str, Any]]] = {
     "caustics": (caustics(), {"caustics": "on", "linked": 0.5, "aimed": 0.5}),
     "shared places": (shared_places(), {"method": "resampled", "reuse": "both", "probes": 2}),
     "pictured": (pictured(), {"method": "mis", "roulette": False}),
+    "hazy": (hazy(), {"method": "mis"}),
 }

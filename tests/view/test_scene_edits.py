@@ -13,6 +13,7 @@ from glrt.scene.materials.kinds import TYPES
 from glrt.scene.materials.lambertian import Lambertian
 from glrt.scene.materials.light import Light
 from glrt.scene.materials.metal import Metal
+from glrt.scene.materials.nothing import Nothing
 from glrt.scene.materials.principled import Principled
 from glrt.scene.scene import Scene, with_lights
 from glrt.scene.shapes.mesh import Mesh
@@ -42,6 +43,7 @@ EXAMPLES: dict[str, Any] = {
     "dielectric": Dielectric(ior=1.25, roughness=0.5),
     "light": Light(emission=(1, 2, 3), color=(0.5, 0.5, 0.5)),
     "principled": Principled(color=(0.1, 0.2, 0.3), roughness=0.3, metallic=1.0, ior=1.75),
+    "none": Nothing(),
 }
 # Values that a type keeps of another one.
 KEPT: dict[tuple[str, str], dict[str, Any]] = {
@@ -69,7 +71,7 @@ def test_another_type_of_material_keeps_what_both_have(before: str, after: str) 
     material = EXAMPLES[before]
     changed: Any = retyped(material, after)
     assert changed.type == after
-    keeps_shining = material.emits and before != "light" and after != "dielectric"
+    keeps_shining = material.emits and before != "light" and after not in ("dielectric", "none")
     assert changed.emits == (after == "light" or keeps_shining)
     for field, value in KEPT.get((before, after), {}).items():
         assert getattr(changed, field) == value, field

@@ -137,10 +137,10 @@ def arrived(records: Sequence[Array]) -> PixelParticles:
 def check_followed(plan: Plan) -> None:
     """Raise UsageError for a method or a scene whose paths are not recorded."""
     settings = plan.settings
-    if plan.facts.media:
+    if plan.facts.media.names:
         raise UsageError(
-            f"paths are not shown in media ({few(plan.facts.media)}): what happens within them is "
-            "not recorded yet. Remove the media to see the paths between surfaces."
+            f"paths are not shown in media ({few(plan.facts.media.names)}): what happens within "
+            "them is not recorded yet. Remove the media to see the paths between surfaces."
         )
     if METHODS[settings.method].model:
         raise UsageError(

@@ -17,7 +17,8 @@ from glrt.scene.materials.nothing import Nothing
 from glrt.scene.materials.principled import Principled
 
 Material = Annotated[
-    Lambertian | Metal | Dielectric | Principled | Light | Nothing, Field(discriminator="type")
+    Lambertian | Metal | Dielectric | Principled | Light | Nothing,
+    Field(discriminator="type"),
 ]
 
 TYPES: dict[str, Any] = {  # the model of each type
