@@ -1,0 +1,148 @@
+"""Media: of any depth, turning light by any angle, of any colour, and met at any angle."""
+
+from typing import Any
+
+import numpy as np
+
+from glrt.gpu.glsl import read
+from glrt.lab.scenes import lamp, plane, quad, scene_of, sphere
+from glrt.lab.sweep import SIGMAS, Lab, Sweep, mean_of
+from glrt.rendering.pipelines import PLAIN, Variant
+from glrt.scene.scene import Scene
+
+METHODS = ("mis", "nee", "naive")
+SIDE = 16  # of a picture, in pixels
+ALBEDO = 0.5  # share of scattering in a medium
+BOUNCES = 60  # what is left beyond them is ALBEDO to that power
+EVEN = {"bottom": [1.0] * 3, "top": [1.0] * 3}
+_FLIGHT = "media/flight.glsl"
+
+
+def equilibrium(depth: float, g: float = 0.0) -> Scene:
+    """A ball of gas and a lamp in it that emit what they absorb, under an even sky: all is 1.
+
+    `depth` is the optical depth of the radius, and `g` the anisotropy.
+    """
+    half = [ALBEDO * depth] * 3
+    gas = {"scattering": half, "absorption": half, "emission": half, "anisotropy": g}
+    body = {**sphere([0, 0, -3], 1, "none"), "medium": "gas"}
+    return scene_of(
+        [body, sphere([0.2, 0, -3], 0.4, "lamp")],
+        {"lamp": lamp(0.5, 0.5)},
+        {"fov": 30},
+        media={"gas": gas},
+        background=EVEN,
+    )
+
+
+def depth(lab: Lab) -> Sweep:
+    """Error of gas in equilibrium, from almost nothing to a thousand mean free paths."""
+    x = np.logspace(-3, 3, 13).tolist()
+    return _even("optical depth of the radius", x, lab, [equilibrium(value) for value in x])
+
+
+def turn(lab: Lab) -> Sweep:
+    """Error of gas in equilibrium that scatters back, evenly or forward."""
+    x = [-0.99, -0.9, -0.5, 0.0, 0.5, 0.9, 0.99]
+    return _even("anisotropy", x, lab, [equilibrium(2.0, g) for g in x])
+
+
+def _even(parameter: str, x: list[float], lab: Lab, scenes: list[Scene]) -> Sweep:
+    """Return how far pictures of radiance 1 are from it, by method."""
+    samples = lab.count(256, 32)
+    size: dict[str, Any] = {"width": SIDE, "height": SIDE, "bounces": BOUNCES}
+    found: dict[str, list[float]] = {method: [] for method in METHODS}
+    for scene in scenes:
+        for method in METHODS:
+            mean, stderr = mean_of(lab.render(scene, samples, method=method, **size))
+            found[method].append(abs(mean - 1) / stderr if stderr else 0.0)
+    chosen, *others = found.items()
+    return Sweep(
+        parameter=parameter,
+        measure="difference from the truth, in standard errors",
+        x=x,
+        chosen=chosen,
+        others=dict(others),
+        promise=f"at most {SIGMAS} standard errors",
+        bound=[SIGMAS] * len(x),
+    )
+
+
+def colors(lab: Lab) -> Sweep:
+    """Noise of fog that is denser for blue than for red, by how its paths fly."""
+    x = [1.0, 2.0, 5.0, 10.0, 30.0, 100.0]
+    alone = {
+        "dot(flight.chances, flight.left)": "flight.left[flight.channel]",
+        "dot(flight.chances, flight.left * medium.extinction)": "flight.left[flight.channel] "
+        "* medium.extinction[flight.channel]",
+    }
+    text = read(_FLIGHT)
+    for old, new in alone.items():
+        text = text.replace(old, new)
+    variants = {
+        "glrt: the chances of all channels": PLAIN,
+        "one channel alone": Variant(texts={_FLIGHT: text}),
+    }
+    samples = lab.count(256, 64)
+    found = {
+        name: [_noise(lab, ratio, samples, variant) for ratio in x]
+        for name, variant in variants.items()
+    }
+    chosen, other = found.items()
+    return Sweep(
+        parameter="density for blue over that for red",
+        measure="noise of a sample over the mean, in the noisiest channel",
+        x=x,
+        chosen=chosen,
+        others=dict([other]),
+        promise="at most 2",
+        bound=[2.0] * len(x),
+    )
+
+
+def _noise(lab: Lab, ratio: float, samples: int, variant: Variant) -> float:
+    fog = {"scattering": [0.3, 0.3 * ratio**0.5, 0.3 * ratio], "absorption": [0.02] * 3}
+    body = {**sphere([0, 0, -3], 1, "none"), "medium": "fog"}
+    scene = scene_of([body], {}, {"fov": 30}, media={"fog": fog}, background=EVEN)
+    image = lab.render(scene, samples, variant, width=SIDE, height=SIDE, bounces=BOUNCES)
+    noise = np.sqrt(np.square(image.stderr, dtype=np.float64).mean(axis=(0, 1)) * samples)
+    return float((noise / image.radiance.mean(axis=(0, 1))).max())
+
+
+def skim(lab: Lab) -> Sweep:
+    """Error of the light that is left of a lamp behind a half space, by the angle to its plane."""
+    x = np.logspace(-6, 0, 13)
+    bodies: dict[str, dict[str, Any]] = {
+        "the half space behind a plane": plane([0, 0, 0], [0, 1, 0], "none"),
+        "a box": {"shape": "box", "min": [-9, -9, -9], "max": [9, 0, 9], "material": "none"},
+    }
+    found = {
+        name: [_error_at(lab, body, float(angle)) for angle in x] for name, body in bodies.items()
+    }
+    chosen, other = found.items()
+    return Sweep(
+        parameter="angle to the plane, radians",
+        measure="relative error of the light that is left",
+        x=x.tolist(),
+        chosen=chosen,
+        others=dict([other]),
+        promise="at most 1e-5",
+        bound=[1e-5] * len(x),
+    )
+
+
+def _error_at(lab: Lab, body: dict[str, Any], angle: float) -> float:
+    """Return the error for a camera that is 1 above the plane, along its line of sight."""
+    away = np.array([np.cos(angle), -np.sin(angle), 0.0])
+    eye = -away  # the line of sight meets the plane in the origin
+    end, across = 1.5 * away, np.array([np.sin(angle), np.cos(angle), 0.0])
+    corner = end - 9 * across - np.array([0, 0, 9.0])
+    wall = quad(corner.tolist(), (18 * across).tolist(), [0, 0, 18.0], "lamp")
+    scene = scene_of(
+        [{**body, "medium": "fog"}, wall],
+        {"lamp": lamp(1.0)},
+        {"position": eye.tolist(), "look_at": [0, 0, 0], "fov": 1e-12},
+        media={"fog": {"absorption": [1.0] * 3}},
+    )
+    mean, _ = mean_of(lab.render(scene, 16, width=1, height=1, bounces=0))
+    return float(abs(mean / np.exp(-1.5) - 1))
