@@ -13,6 +13,7 @@ from glrt.scene.materials.dielectric import Dielectric
 from glrt.scene.materials.facets import facet_loss
 from glrt.scene.materials.lambertian import Lambertian
 from glrt.scene.materials.metal import Metal
+from glrt.scene.materials.nothing import Nothing
 from glrt.scene.materials.principled import Principled
 from glrt.scene.scene import Scene
 from glrt.scene.shapes.box import Box
@@ -24,7 +25,7 @@ from glrt.scene.shapes.quad import Quad
 from glrt.scene.shapes.sphere import Sphere
 from glrt.scene.values import Radiance
 from glrt.settings import Settings
-from tests.mitsuba import metal, rough_glass
+from tests.mitsuba import media, metal, rough_glass
 from tests.mitsuba.faces import is_seen_from_inside, refuse_coincident
 from tests.mitsuba.near import EXTENT, Near, Vector, around, corners, length, near, normal_of, unit
 from tests.mitsuba.skies import sky, sun
@@ -66,18 +67,27 @@ def convert(mi: Any, scene: Scene, settings: Settings, liberties: Liberties) -> 
     words = {
         "type": "scene",
         "integrator": {
-            "type": "path",
+            "type": media.integrator(scene),
             "max_depth": settings.bounces + 1,  # Mitsuba counts segments
             "rr_depth": ROULETTE_DEPTH if settings.roulette else NEVER,
         },
-        "camera": _camera(mi, scene, settings, at, liberties.sampler),
+        "camera": {
+            **_camera(mi, scene, settings, at, liberties.sampler),
+            **media.around_camera(scene, at),
+        },
     }
+    bounds = media.bounds(scene, at)
     if any(map(any, scene.background_colors)):
         words["background"] = sky(mi, scene)
     if any(scene.sun_radiance):
         words["sun"] = sun(mi, scene, EXTENT)
-    for index, item in enumerate(scene.visible):
-        for side, part in enumerate(_shape(mi, scene, item, at, liberties)):
+    for index in scene.shown:
+        item = scene.objects[index]
+        surface = {
+            **_surface(scene, scene.finish(item), liberties.native),
+            **bounds.get(index, {}),
+        }
+        for side, part in enumerate(_shape(mi, scene, item, surface, at, liberties)):
             words[f"object {index} {side}"] = part
     return words
 
@@ -110,9 +120,10 @@ def _camera(mi: Any, scene: Scene, settings: Settings, at: Near, sampler: str) -
     }
 
 
-def _shape(mi: Any, scene: Scene, item: Any, at: Near, liberties: Liberties) -> Iterator[Any]:
+def _shape(
+    mi: Any, scene: Scene, item: Any, surface: Words, at: Near, liberties: Liberties
+) -> Iterator[Any]:
     """The shape, or its two faces."""
-    surface = _surface(scene, scene.finish(item), liberties.native)
     if isinstance(item, Sphere):
         yield from _sphere(scene, surface, item, at)
     elif isinstance(item, Plane):
@@ -238,6 +249,8 @@ def _surface(scene: Scene, finish: Finish, is_native: bool) -> Words:
     textures = material.textures if isinstance(material, Opaque) else {}
     if textures and not (set(textures) == {"color"} and isinstance(material, Lambertian)):
         raise SceneError(f"material '{finish.material}': the converter paints matte ones alone.")
+    if isinstance(material, Nothing):
+        return {"bsdf": {"type": "null"}}
     if isinstance(material, Dielectric):
         return {"bsdf": _glass(finish.material, material)}
     if isinstance(material, Principled):
