@@ -48,6 +48,7 @@
 #include "integrators/roulette.glsl"
 #include "media/phase.glsl"
 #include "media/flight.glsl"
+#include "media/equiangular.glsl"
 #include "integrators/path_state.glsl"
 #include "probes/octahedron.glsl"
 #include "probes/grid.glsl"

@@ -12,6 +12,9 @@ from glrt.scene.scene import Scene
 from glrt.settings import Settings
 
 
+MOST_APPROACHED = 8  # lamps that are weighed along every segment through a medium
+
+
 @dataclass(frozen=True)
 class Case:
     """A scene with its settings; features of the kernel follow from both."""
@@ -65,6 +68,16 @@ class Case:
         particles = self.particles
         sends = self.is_lit or particles.sun_sends or particles.sky_sends
         return self.settings.caustics == "on" and sends and self.traits.weighs_particles
+
+    @property
+    def has_media(self) -> bool:
+        """Whether the method follows light through media, and the scene has some."""
+        return bool(self.facts.media.names) and not self.traits.model
+
+    @property
+    def has_few_lamps(self) -> bool:
+        """Whether the lamps are so few that each is weighed along every segment."""
+        return self.facts.sampled_lamps <= MOST_APPROACHED
 
     @property
     def aims(self) -> bool:

@@ -113,7 +113,13 @@ class Needs:
     has_transmission_map: bool = _textured("textured transmission", "transmission")
     has_hole: bool = _made_of("alpha below 1 or none", "holes", lambda it: it.passed)
     has_media: bool = _row(  # paths fly through media
-        lambda it: bool(it.facts.media.names) and not it.traits.model, "media", reasons.media
+        lambda it: it.has_media, "media", reasons.media
+    )
+    has_equiangular: bool = _row(  # samples the light of few lamps along segments through media
+        lambda it: it.has_media and it.is_lit and it.traits.samples_lights and it.has_few_lamps,
+        "lamps along segments",
+        reasons.equiangular,
+        most=False,
     )
     boundaries: int = _row(  # objects that bound a volume, in a scene with media
         lambda it: len(it.facts.media.bounds), most=0

@@ -55,6 +55,11 @@ def media(case: Case) -> str:
     return f"filled with {few(names)}" if names else "no medium fills space"
 
 
+def equiangular(case: Case) -> str:
+    """Return the media and the lamps."""
+    return f"{media(case)}, {lamps(case)}"
+
+
 def by_method(case: Case) -> str:
     """Return the method."""
     return f"method {case.settings.method}"

@@ -73,6 +73,8 @@ def iterations_per_sample(plan: Plan, tree_rounds: float = TREE_ROUNDS) -> int:
     rays += traits.samples_lights and plan.scene.sun is not None
     segments = (settings.bounces + 1) * (1 + _passed(facts))
     bounds = 2 + len(facts.media.bounds) if plan.needs.has_media else 0  # to look one up
+    if plan.needs.has_equiangular:  # a ray more, and its lamp chosen
+        rays, choice = rays + 1, 2 * choice + 2 * facts.clusters
     return 1 + segments * (1 + rays * (search + bounds) + choice)
 
 

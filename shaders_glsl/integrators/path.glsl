@@ -79,6 +79,19 @@ void pass_hole(inout Path path, Surface surface, float distance) {
     }
 }
 
+// Whether a path was scattered by a medium on a segment along which lamps were sampled, this lamp among them.
+bool is_from_medium(Path path, int light, Ray start) {
+    return path.pdf > 0.0 && light != NO_LIGHT && path.approach.density > 0.0 && is_sampled(light, start);
+}
+
+// `emission_weight` for such a path.
+float emission_beside_approach(Path path, Ray start, Hit hit, int light) {
+    float light_pdf = pdf_light(light, start, hit.distance, path.lamps);
+    float rival = rivalry(path.approach, light, choice_pdf(light, start, path.lamps));
+    float other = light_pdf * sqrt(1.0 + rival * rival);
+    return WEIGHT_BOTH ? power_heuristic(path.pdf, other) : 0.0;
+}
+
 // `emission_weight` of the emission that a segment meets. The segment may have passed holes.
 float weight_of_emission(Path path, Hit hit, int light) {
     if (HAS_PARTICLES && path.rivals.rho > 0.0 && light != NO_LIGHT) {
@@ -88,9 +101,13 @@ float weight_of_emission(Path path, Hit hit, int light) {
         record_weight(kappa * path.pdf, weight);
         return weight;
     }
-    if (!HAS_HOLE) return emission_weight(path.ray, hit, light, path.pdf, path.lamps);
-    Hit met = Hit(path.passed.way + hit.distance, hit.shape);
-    return emission_weight(path.passed.start, met, light, path.pdf, path.lamps);
+    Ray start = path.ray;
+    if (HAS_HOLE) {
+        hit.distance += path.passed.way;
+        start = path.passed.start;
+    }
+    if (HAS_EQUIANGULAR && is_from_medium(path, light, start)) return emission_beside_approach(path, start, hit, light);
+    return emission_weight(start, hit, light, path.pdf, path.lamps);
 }
 
 // Adds light of a sample, scattered where the path meets a surface. `source`: the object that shines, or
@@ -230,6 +247,7 @@ bool scatter_path(inout Path path, Surface surface, Material whole, inout Sample
     path.passed = Passed(0u, path.ray, 0.0);
     path.pdf = next.pdf;
     if (HAS_MEDIA) begin_flight(path.flight, path.throughput, rng);
+    if (HAS_EQUIANGULAR) path.approach = no_approach();
     return true;
 }
 

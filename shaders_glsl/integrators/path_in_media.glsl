@@ -8,6 +8,46 @@ void gather_glow(inout Path path, Medium medium, float distance) {
     gather(path, light, medium.layer, path.depth);
 }
 
+// Adds light of a lamp at a place on a segment that ends after this distance, on its first segment through a medium
+// that scatters. It belongs to the vertex that a collision there would be. Returns the segment, with a density of 1.
+Approach approach_lamps(inout Path path, Medium medium, float distance) {
+    vec4 dice = path.flight.dice;
+    path.flight.dice.x = -1.0;
+    if (path.depth == frame.bounces) return no_approach();
+    Approach at = Approach(path.ray.origin, path.ray.direction, distance, 0.0, 1.0, 0.0);
+    for (int i = 0; i < CLUSTERS; ++i) at.total += nearness(sight_of(at, cluster_at(i)), cluster_at(i));
+    float target = dice.x * at.total;
+    float sum = 0.0;
+    int lamp = 0;
+    for (int i = 1; i < CLUSTERS; ++i) {
+        sum += nearness(sight_of(at, cluster_at(i - 1)), cluster_at(i - 1));
+        if (sum <= target) lamp = i;
+    }
+    Sight sight = sight_of(at, cluster_at(lamp));
+    Approach found = at;
+    at.way = sample_equiangular(sight, dice.y);
+    float chance = dot(path.flight.chances, path.flight.left);
+    if (!(at.way < distance) || chance == 0.0) return found;
+    Flight flight = path.flight;
+    flight.left *= share_left(medium.extinction, at.way);
+    at.density = density_of_collision(flight, medium) / chance;
+    Ray ray = Ray(at.origin + at.way * at.direction, at.direction, NO_SHAPE, false);
+    LightSample light = sample_lamp(ray, lamp, dice.zw, total_weight(ray));
+    float choice = choice_pdf(lamp, ray, total_weight(ray));
+    if (light.pdf == 0.0 || choice == 0.0 || is_dark(light)) return found;
+    float phase = eval_phase(medium.anisotropy, at.direction, light.ray.direction);
+    float other = WEIGHT_BOTH ? phase / light.pdf : 0.0;
+    float rival = 1.0 / rivalry(at, lamp, choice);
+    float weight = 1.0 / (1.0 + rival * rival * (1.0 + other * other));
+    float pdf = nearness(sight, cluster_at(lamp)) / at.total * pdf_equiangular(sight, at.way) * (light.pdf / choice);
+    vec3 scattered = path.scale * path.throughput * flight.left / chance * medium.scattering;
+    vec3 direct = scattered * (weight * phase / pdf) * light.radiance;
+    if (direct == vec3(0.0)) return found;
+    direct *= light_left(light.ray, light.distance, light.shape, path.flight.medium);
+    gather(path, direct, light.layer, path.depth + 1);
+    return found;
+}
+
 // Flies over a segment of this length. True if the path collides there: then its ray starts at the collision. A
 // medium that only absorbs takes its share without chance.
 bool collides(inout Path path, float distance) {
@@ -18,6 +58,9 @@ bool collides(inout Path path, float distance) {
         path.throughput *= share_left(medium.extinction, distance);
         return false;
     }
+    Approach approach = no_approach();
+    if (HAS_EQUIANGULAR && path.flight.dice.x >= 0.0) approach = approach_lamps(path, medium, distance);
+    float chance = dot(path.flight.chances, path.flight.left);
     float extinction = medium.extinction[path.flight.channel];
     float depth = extinction * distance;
     bool is_met = path.flight.depth < depth;
@@ -25,6 +68,11 @@ bool collides(inout Path path, float distance) {
     path.flight.left *= share_left(medium.extinction, way);
     path.flight.depth -= depth;
     if (is_met) {
+        if (HAS_EQUIANGULAR) {
+            path.approach = approach;
+            path.approach.way = way;
+            if (approach.density > 0.0) path.approach.density = density_of_collision(path.flight, medium) / chance;
+        }
         path.throughput *= weight_of_collision(path.flight, medium);
         path.flight.left = vec3(1.0);
         path.ray.origin += way * path.ray.direction;
@@ -44,7 +92,12 @@ void gather_in_medium(inout Path path, Medium medium, LightSample light) {
     if (light.pdf == 0.0 || is_dark(light)) return;
     float phase = eval_phase(medium.anisotropy, path.ray.direction, light.ray.direction);
     float weight = phase / light.pdf;
-    if (WEIGHT_BOTH) weight *= power_heuristic(light.pdf, phase);
+    if (HAS_EQUIANGULAR && light.light >= 0) {
+        float rival = rivalry(path.approach, light.light, choice_pdf(light.light, path.ray, path.lamps));
+        weight *= weight_beside_approach(light.pdf, WEIGHT_BOTH ? phase : 0.0, rival);
+    } else if (WEIGHT_BOTH) {
+        weight *= power_heuristic(light.pdf, phase);
+    }
     vec3 left = light_left(light.ray, light.distance, light.shape, path.flight.medium);
     vec3 direct = path.scale * path.throughput * left * weight * light.radiance;
     gather(path, direct, light.layer, path.depth + 1);

@@ -33,6 +33,7 @@ struct Path {
     Rivals rivals;
     Asking asking;
     Flight flight;
+    Approach approach;
     vec3 layers[MOST_LAYERS];  // the radiance by layers
 };
 
@@ -44,7 +45,7 @@ Path start_path(Ray ray) {
     Flight flight = start_flight(HAS_MEDIA ? frame.camera_medium : NO_MEDIUM);
     Asking asking = Asking(!FINAL_GATHER || FROM_PROBES, false);
     return Path(ray, vec3(1.0), 1.0, vec3(0.0), 0.0, 0.0, 0, absorption, counts, passed, rivals, asking, flight,
-                NO_LAYERS);
+                no_approach(), NO_LAYERS);
 }
 
 // Adds light of a lamp that is `length` scattering events from the camera; `group` is its layer. A path of a probe

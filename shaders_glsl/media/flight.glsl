@@ -11,6 +11,7 @@ struct Flight {
     float depth;    // optical depth in that channel, from here to the collision
     vec3 chances;   // of the channels
     vec3 left;      // share of light that scattering media have left since the last vertex
+    vec4 dice;      // for a sample along the segment (media/equiangular.glsl); x below 0: it was taken
 };
 
 // -ln(1 - u), for u below 1, which differs between drivers: by the exponent and the series of artanh, whose argument
@@ -31,7 +32,7 @@ float depth_of(float u) {
 }
 
 Flight start_flight(int medium) {
-    return Flight(medium, 0, 0.0, vec3(1.0), vec3(1.0));
+    return Flight(medium, 0, 0.0, vec3(1.0), vec3(1.0), vec4(-1.0));
 }
 
 // Draws how far the path flies from a vertex with this throughput, which is not black.
@@ -43,6 +44,10 @@ void begin_flight(inout Flight flight, vec3 throughput, inout Sampler rng) {
     flight.channel = u.x < red ? 0 : is_blue ? 2 : 1;
     flight.depth = depth_of(u.y);
     flight.left = vec3(1.0);
+    if (HAS_EQUIANGULAR) {
+        vec2 place = next_2d(rng);
+        flight.dice = vec4(place, next_2d(rng));
+    }
 }
 
 // The factor of the throughput, where the flight has come so far without a collision.
@@ -54,9 +59,14 @@ vec3 weight_of_flight(Flight flight) {
     return weight;
 }
 
+float density_of_collision(Flight flight, Medium medium) {
+    float density = dot(flight.chances, flight.left * medium.extinction);
+    return density;
+}
+
 // The same where it collides, with what the medium absorbs.
 vec3 weight_of_collision(Flight flight, Medium medium) {
-    float density = dot(flight.chances, flight.left * medium.extinction);
+    float density = density_of_collision(flight, medium);
     if (density == 0.0) return vec3(0.0);
     vec3 weight = flight.left * medium.scattering / density;
     return weight;

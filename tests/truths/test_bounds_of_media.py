@@ -97,8 +97,22 @@ def test_an_object_without_a_medium_holds_vacuum_in_fog(context: Context, x: flo
     assert_allclose(image.radiance[8, 8], 9 * np.exp(-length * MU), rtol=1e-5)
 
 
-def test_bounds_are_no_bounces(context: Context) -> None:
-    """Sixteen of them between the eye and a lamp, and none of the 0 bounces is used up."""
+def test_a_bound_is_no_bounce(context: Context) -> None:
+    """The eye in a ball of gas sees direct light on a wall outside, within one bounce."""
+    wall = quad([-9, -9, -3], [18, 0, 0], [0, 18, 0], "white")
+    bulb = sphere([0, 3, -1], 0.2, "lamp")
+    gas = filled(sphere([0, 0, 0], 1, ""))
+    pictures = [
+        rendered(with_fog(things, medium(absorption=MU), {"fov": 1}), context, 16, bounces=1)
+        for things in ([wall, bulb, gas], [wall, bulb])
+    ]
+    dim, clear = (picture.radiance.mean(axis=(0, 1), dtype=np.float64) for picture in pictures)
+    assert clear.min() > 0.01
+    assert_allclose(dim, clear * np.exp(-MU), rtol=0.02)
+
+
+def test_many_bounds_are_passed(context: Context) -> None:
+    """Sixteen of them stand between the eye and a lamp."""
     lamp_behind = quad([-9, -9, -40], [18, 0, 0], [0, 18, 0], "lamp")
     slabs = [filled(box([-9, -9, -z - 0.5], [9, 9, -z], "")) for z in range(1, 9)]
     scene = with_fog([*slabs, lamp_behind], medium(absorption=MU / 10), {"fov": 1})
