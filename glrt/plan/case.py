@@ -11,7 +11,6 @@ from glrt.scene.materials.metal import Metal
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
 
-
 MOST_APPROACHED = 8  # lamps that are weighed along every segment through a medium
 
 

@@ -1,5 +1,7 @@
 """Phase functions, flights and their weights: against float64 and closed forms."""
 
+import math
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -7,6 +9,7 @@ from numpy.testing import assert_allclose
 from tests.conftest import CallGlsl
 from tests.shaders.test_sampling import DRAWS, GRIDS, RNG, Floats, cells_of
 from tests.support.alarms import assert_fits
+from tests.support.builders import lamp, scene_of, sphere
 from tests.support.numerics import BELOW_ONE
 
 TURNS = [-0.99, -0.5, 0.0, 1e-4, 0.6, 0.99]
@@ -106,3 +109,31 @@ def test_gray_flights_have_no_noise_in_their_weight(call_glsl: CallGlsl) -> None
     found = call_glsl("vec4(weight, collides ? 1.0 : 0.0)", "vec4", setup=setup, n=np.arange(4096))
     wanted = np.where(found[:, 3:] > 0, 0.75, 1.0)
     assert_allclose(found[:, :3], np.broadcast_to(wanted, (4096, 3)), rtol=1e-6)
+
+
+LAMPS = scene_of(
+    [sphere([0.5, 1.0, -2.0], 0.3, "lamp")],
+    {"lamp": lamp(1.0)},
+    media={"fog": {"scattering": [1.0] * 3}},
+    medium="fog",
+)
+
+
+@pytest.mark.parametrize("end", [0.5, 4.0, 3.402823466e38])
+def test_places_along_a_segment_follow_their_density(call_glsl: CallGlsl, end: float) -> None:
+    """Its integral up to a place is the number that the place is drawn by."""
+    u = ((np.arange(20_000) + 0.5) / 20_000).astype(np.float32)
+    setup = f"""
+        Approach at = Approach(vec3(0.0), vec3(0.0, 0.0, -1.0), {end:.9e}, 0.0, 1.0, 1.0);
+        Sight sight = sight_of(at, cluster_at(0));
+        float way = sample_equiangular(sight, u);"""
+    found = call_glsl(
+        "vec2(way, pdf_equiangular(sight, way))", "vec2", setup=setup, scene=LAMPS, u=u
+    )
+    way, pdf = found.astype(np.float64).T
+    height, foot = math.sqrt(0.5**2 + 1), 2.0
+    first, last = (math.atan2(x - foot, height) for x in (0.0, end))
+    assert_allclose(pdf, height / ((last - first) * (height**2 + (way - foot) ** 2)), rtol=2e-6)
+    assert_allclose(way, foot + height * np.tan(first + u * (last - first)), rtol=5e-3, atol=1e-6)
+    assert (np.diff(way) > 0).all()
+    assert way.max() <= end

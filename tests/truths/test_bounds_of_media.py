@@ -153,3 +153,34 @@ def test_a_medium_in_glass_shines_through_fog(context: Context) -> None:
     inside = glow * -np.expm1(-2 * dim) / dim  # one way through it: a bounce ends at its back
     truth = np.exp(-4 * (0.3 * MU + 0.1)) * 0.96 / 1.5**2 * inside
     assert_mean(whole(image), truth, 0.05)
+
+
+def test_gas_shines_through_fog(context: Context) -> None:
+    """Bounds alone lie between: the flight through fog goes on in the gas."""
+    dim, glow = np.array([0.2, 0.5, 1.0]), [1.0, 2.0, 3.0]
+    things = [filled(sphere([0, 0, -4], 1, ""), "glow")]
+    scene = scene_of(
+        things,
+        {},
+        {"fov": 0.01},
+        media={
+            "fog": medium(scattering=0.3 * MU, absorption=0.1),
+            "glow": medium(absorption=dim, emission=glow),
+        },
+        medium="fog",
+    )
+    image = rendered(scene, context, 4096, bounces=0)
+    truth = np.exp(-3 * (0.3 * MU + 0.1)) * glow * -np.expm1(-2 * dim) / dim
+    assert_mean(whole(image), truth, 0.05)
+
+
+def test_a_sheet_in_the_plane_of_a_half_space_is_seen(context: Context) -> None:
+    """A plane comes before a quad where two surfaces share a place, but this one is none."""
+    half = filled(plane([0, 0, -2], [0, 0, 1], ""))
+    sheet = quad([-1, -1, -2], [2, 0, 0], [0, 2, 0], "lamp")
+    white = quad([-9, -9, -2], [8, 0, 0], [0, 18, 0], "white")
+    scene = with_fog([half, sheet, white], medium(absorption=50), {"fov": 20}, background=EVEN)
+    assert (rendered(scene, context, 4).radiance == 9).all()
+    aside = {"position": [-4, 0, 0], "look_at": [-4, 0, -1], "fov": 20}
+    lit = with_fog([half, sheet, white], medium(absorption=50), aside, background=EVEN)
+    assert rendered(lit, context, 64).radiance.min() > 0.2

@@ -14,7 +14,7 @@ from tests.support.images import same_bits
 from tests.support.media import DUSK, EVEN, FAR, HAZE, MU, ball, filled, medium, with_fog
 from tests.support.meshes import box as box_of_triangles
 from tests.support.meshes import icosphere, mesh
-from tests.support.renders import METHODS, assert_mean, rendered, whole
+from tests.support.renders import METHODS, assert_agree, assert_mean, rendered, whole
 
 BODIES: dict[str, dict[str, Any]] = {  # each 1 long on the axis of the camera
     "box": filled(box([-9, -9, -0.5], [9, 9, 0.5], "")),
@@ -111,7 +111,7 @@ def test_a_cavity_in_equilibrium_is_even(context: Context, method: str) -> None:
         sphere([0.2, 0, 0], 0.4, "wall"),
         sphere([0, 1.2, 0.9], 0.3, "wall"),  # across the bounds
     ]
-    fog = medium(scattering=[1, 2, 0.3], absorption=[0.5, 1, 0.2], emission=[0.5, 1, 0.2], g=0.6)
+    fog = medium(scattering=[1, 2, 0.3], absorption=[0.5, 1, 0.2], emission=[0.5, 1, 0.2], g=0.9)
     eye = {"position": [0, 0, 2.5], "fov": 60}
     scene = with_fog(things, fog, eye, materials={"wall": wall})
     image = rendered(scene, context, 256, method=method, bounces=60)
@@ -175,6 +175,19 @@ def test_a_lamp_in_thin_fog_is_scattered_once(context: Context, method: str) -> 
     truth = 0.5 / (4 * math.pi) * (np.exp(-0.6 * (t + r)) / r**2).sum() / 100_000
     assert truth == pytest.approx(0.0138511, abs=1e-7)
     assert_mean(whole(image), [truth] * 3, 0.01, floor=1e-4 * truth)
+
+
+@pytest.mark.parametrize("method", ["naive", "nee"])
+def test_a_lamp_in_fog_is_found_alike(context: Context, method: str) -> None:
+    """A large lamp in fog that scatters forward is met by scattering as often as it is sampled."""
+    fog = medium(scattering=[1, 2, 0.5], absorption=[0.1, 0.1, 0.3], g=0.8)
+    things = [sphere([0.7, 0.2, 0.3], 0.5, "lamp"), sphere([-0.8, -0.4, -0.4], 0.2, "lamp")]
+    scene = with_fog([*things, ball(2)], fog, {**FAR, "fov": 40})
+    pictures = [
+        rendered(scene, context, count, method=one, bounces=4, seed=seed, sampler="sobol")
+        for seed, (one, count) in enumerate(((method, 1024), ("mis", 512)))
+    ]
+    assert_agree(pictures[0], pictures[1], 0.07)
 
 
 def test_a_ball_under_a_sun_is_scattered_once(context: Context) -> None:
