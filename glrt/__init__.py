@@ -54,6 +54,7 @@ if TYPE_CHECKING:
     from glrt.scene.materials.metal import Metal
     from glrt.scene.materials.principled import Principled
     from glrt.scene.materials.textures import NormalTexture, Texture
+    from glrt.scene.medium import Medium
     from glrt.scene.scene import Scene
     from glrt.scene.shapes.box import Box
     from glrt.scene.shapes.cylinder import Cylinder
@@ -80,6 +81,7 @@ __all__ = [
     "Image",
     "Lambertian",
     "Light",
+    "Medium",
     "Mesh",
     "Metal",
     "NormalTexture",
@@ -124,6 +126,7 @@ _HOMES = {
     "Image": "image.image",
     "Lambertian": "scene.materials.lambertian",
     "Light": "scene.materials.light",
+    "Medium": "scene.medium",
     "Mesh": "scene.shapes.mesh",
     "Metal": "scene.materials.metal",
     "NormalTexture": "scene.materials.textures",

@@ -41,6 +41,7 @@ class Box(Object):
             material: str,
             name: str | None = None,
             group: str | None = None,
+            medium: str | None = None,
             hidden: bool = False,
         ) -> None: ...
 

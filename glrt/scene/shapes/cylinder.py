@@ -52,6 +52,7 @@ class Cylinder(_Ended):
             material: str,
             name: str | None = None,
             group: str | None = None,
+            medium: str | None = None,
             hidden: bool = False,
         ) -> None: ...
 

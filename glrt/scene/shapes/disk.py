@@ -44,6 +44,7 @@ class Disk(Sided):
             material: str,
             name: str | None = None,
             group: str | None = None,
+            medium: str | None = None,
             hidden: bool = False,
             emission_side: Literal["both", "front"] = "both",
         ) -> None: ...

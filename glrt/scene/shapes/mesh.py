@@ -109,6 +109,7 @@ class Mesh(Sided):
             part: str | None = None,
             name: str | None = None,
             group: str | None = None,
+            medium: str | None = None,
             hidden: bool = False,
             emission_side: Literal["both", "front"] = "both",
         ) -> None: ...

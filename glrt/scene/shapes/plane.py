@@ -42,6 +42,7 @@ class Plane(Cornerless):
             material: str,
             name: str | None = None,
             group: str | None = None,
+            medium: str | None = None,
             hidden: bool = False,
         ) -> None: ...
 

@@ -43,6 +43,7 @@ class Quad(Sided):
             material: str,
             name: str | None = None,
             group: str | None = None,
+            medium: str | None = None,
             hidden: bool = False,
             emission_side: Literal["both", "front"] = "both",
         ) -> None: ...

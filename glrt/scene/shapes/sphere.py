@@ -37,6 +37,7 @@ class Sphere(Cornerless):
             material: str,
             name: str | None = None,
             group: str | None = None,
+            medium: str | None = None,
             hidden: bool = False,
         ) -> None: ...
 
