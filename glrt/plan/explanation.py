@@ -11,7 +11,7 @@ from glrt.plan.plan import Plan
 from glrt.scene.materials.kinds import TYPES
 from glrt.scene.shapes.kinds import KINDS, SAMPLED
 
-_SPOKEN = {"dielectric": "glass", "none": "bounds without a surface"}
+_SPOKEN = {"dielectric": "glass", "none": "no surface"}
 
 
 class Feature(NamedTuple):

@@ -117,7 +117,7 @@ class Needs:
     )
     has_equiangular: bool = _row(  # samples the light of few lamps along segments through media
         lambda it: it.has_media and it.is_lit and it.traits.samples_lights and it.has_few_lamps,
-        "lamps along segments",
+        "along segments",
         reasons.equiangular,
         most=False,
     )

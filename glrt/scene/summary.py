@@ -14,11 +14,12 @@ MOST_NAMED = 8  # names of a sort
 
 
 def summary(scene: Scene) -> list[str]:
-    """Return lines for objects by kind, materials by type, textures, and light groups."""
+    """Return lines for objects by kind, materials by type, textures, media and light groups."""
     return [
         f"objects    {', '.join(_objects(scene)) or 'none'}",
         f"materials  {'; '.join(_materials(scene)) or 'none'}",
         *_textures(scene),
+        *([f"media      {few(scene.media)}"] if scene.media else []),
         f"lights     {few(_lights(scene)) or 'none'}",
         *_animation(scene),
     ]

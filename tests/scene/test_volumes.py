@@ -160,3 +160,12 @@ def test_gas_that_glows_is_light_enough() -> None:
     dimmed = lit.model_copy(update={"lights": {"media.fog": 0.0}})
     assert any("no light" in text for text in cautions(dimmed, SETTINGS))
     scene_of([], {}, media=glow, medium="fog")  # there is something to see
+
+
+def test_a_medium_changes_from_frame_to_frame() -> None:
+    track = {"target": "media.fog.scattering", "times": [0, 1], "values": [[0, 0, 0], [2, 4, 6]]}
+    moving = scene(ball(1), animation={"fps": 2, "tracks": [track]})
+    assert moving.at_frame(1).media["fog"].scattering == (1.0, 2.0, 3.0)
+    wrong = {**track, "target": "media.frog.scattering"}
+    with pytest.raises(SceneError, match="unknown medium 'frog'"):
+        scene(ball(1), animation={"fps": 2, "tracks": [wrong]})
