@@ -1,4 +1,4 @@
-"""What samples of lamps along segments through fog bring: `python -m bench.foggy`.
+"""The gain by samples of lamps along segments through fog: `python -m bench.foggy`.
 
 Each scene is rendered with and without them, in turns. The efficiency is 1 / (error^2 x time), and
 its ratio the median over the rounds.

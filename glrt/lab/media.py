@@ -10,12 +10,13 @@ from glrt.lab.sweep import SIGMAS, Lab, Sweep, mean_of
 from glrt.rendering.pipelines import PLAIN, Variant
 from glrt.scene.scene import Scene
 
-METHODS = ("mis", "nee", "naive")
+WEAKENED = "depth += hit.distance * medium_at(medium).extinction"
+UNWEAKENED = "depth += 0.0 * medium_at(medium).extinction"
 SIDE = 16  # of a picture, in pixels
 ALBEDO = 0.5  # share of scattering in a medium
 BOUNCES = 60  # what is left beyond them is ALBEDO to that power
 EVEN = {"bottom": [1.0] * 3, "top": [1.0] * 3}
-_FLIGHT = "media/flight.glsl"
+_FLIGHT, _PATH = "media/flight.glsl", "integrators/path_in_media.glsl"
 
 
 def equilibrium(depth: float, g: float = 0.0) -> Scene:
@@ -38,24 +39,30 @@ def equilibrium(depth: float, g: float = 0.0) -> Scene:
 def depth(lab: Lab) -> Sweep:
     """Error of gas in equilibrium, from almost nothing to a thousand mean free paths."""
     x = np.logspace(-3, 3, 13).tolist()
-    return _even("optical depth of the radius", x, lab, [equilibrium(value) for value in x])
+    text = {_FLIGHT: read(_FLIGHT).replace(WEAKENED, UNWEAKENED)}
+    naive = {"lamps that shine as through vacuum": Variant(texts=text)}
+    return _even("optical depth of the radius", x, lab, [equilibrium(it) for it in x], naive)
 
 
 def turn(lab: Lab) -> Sweep:
     """Error of gas in equilibrium that scatters back, evenly or forward."""
     x = [-0.99, -0.9, -0.5, 0.0, 0.5, 0.9, 0.99]
-    return _even("anisotropy", x, lab, [equilibrium(2.0, g) for g in x])
+    even = read(_PATH).replace("eval_phase(medium.anisotropy,", "eval_phase(0.0,")
+    naive = {"lamps that are scattered evenly": Variant(texts={_PATH: even})}
+    return _even("anisotropy", x, lab, [equilibrium(2.0, g) for g in x], naive)
 
 
-def _even(parameter: str, x: list[float], lab: Lab, scenes: list[Scene]) -> Sweep:
-    """Return how far pictures of radiance 1 are from it, by method."""
-    samples = lab.count(256, 32)
+def _even(
+    parameter: str, x: list[float], lab: Lab, scenes: list[Scene], naive: dict[str, Variant]
+) -> Sweep:
+    """Return how far pictures of radiance 1 are from it, by the method `mis` and a naive way."""
+    samples = lab.count(256, 64)
     size: dict[str, Any] = {"width": SIDE, "height": SIDE, "bounces": BOUNCES}
-    found: dict[str, list[float]] = {method: [] for method in METHODS}
-    for scene in scenes:
-        for method in METHODS:
-            mean, stderr = mean_of(lab.render(scene, samples, method=method, **size))
-            found[method].append(abs(mean - 1) / stderr if stderr else 0.0)
+    found: dict[str, list[float]] = {}
+    for way, variant in {"glrt": PLAIN, **naive}.items():
+        pictures = [lab.render(scene, samples, variant, **size) for scene in scenes]
+        figures = map(mean_of, pictures)
+        found[way] = [abs(mean - 1) / stderr for mean, stderr in figures]
     chosen, *others = found.items()
     return Sweep(
         parameter=parameter,
@@ -111,7 +118,7 @@ def _noise(lab: Lab, ratio: float, samples: int, variant: Variant) -> float:
 
 def skim(lab: Lab) -> Sweep:
     """Error of the light that is left of a lamp behind a half space, by the angle to its plane."""
-    x = np.logspace(-6, 0, 13)
+    x = np.logspace(-6, 0, 7)
     bodies: dict[str, dict[str, Any]] = {
         "the half space behind a plane": plane([0, 0, 0], [0, 1, 0], "none"),
         "a box": {"shape": "box", "min": [-9, -9, -9], "max": [9, 0, 9], "material": "none"},

@@ -29,6 +29,8 @@ VERDICTS = {
     "caustic": 3,
     "fireflies": 1,
     "frosted": 7,
+    "depth": 13,
+    "turn": 7,
     "seeds": 7,
     "dimensions": 1,
     "sparks": 6,
@@ -52,7 +54,7 @@ SWEEP = Sweep(
 )
 
 
-@pytest.mark.slow_cases("leave", "stretch", "caustic", "sparks", "still", "albedo")
+@pytest.mark.slow_cases("leave", "stretch", "caustic", "sparks", "still", "albedo", "skim")
 @pytest.mark.slow_cases(*SLOW)
 @pytest.mark.parametrize("name", CASES)
 def test_every_case_holds_and_distinguishes_the_naive_method_from_the_chosen(
