@@ -261,3 +261,21 @@ def test_an_icosahedron_of_fog_is_nearly_a_ball(context: Context) -> None:
     first, second = (whole(rendered(it, context, 64)).mean for it in scenes)
     assert_allclose(second, first, rtol=0.01)
     assert (second < first).all()
+
+
+def test_lamps_in_fog_shine_through_sheets_by_chances_of_their_own(context: Context) -> None:
+    """The eye looks through one sheet that is half there, and the lamp hangs behind another."""
+    sheet = {"type": "principled", "color": [0.0] * 3, "specular": 0.0, "alpha": 0.5}
+    things = [
+        quad([-9, -9, -1], [18, 0, 0], [0, 18, 0], "sheet"),
+        quad([-9, 1, -9], [18, 0, 0], [0, 0, 18], "sheet"),
+        sphere([0, 2, -2.5], 0.7, "lamp"),
+    ]
+    half = filled(plane([0, 0, -1.2], [0, 0, 1], ""))
+    fog, eye = medium(scattering=0.4, absorption=0.1), {"fov": 10}
+    scene = with_fog([*things, half], fog, eye, materials={"sheet": sheet})
+    pictures = [
+        rendered(scene, context, count, method=method, bounces=1, seed=seed)
+        for seed, (method, count) in enumerate((("naive", 16384), ("mis", 1024)))
+    ]
+    assert_agree(pictures[0], pictures[1], 0.1)
