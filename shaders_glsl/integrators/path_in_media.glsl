@@ -43,10 +43,9 @@ Approach approach_lamps(inout Path path, Medium medium, float distance) {
     vec3 scattered = path.scale * path.throughput * flight.left / chance * medium.scattering;
     vec3 direct = scattered * (weight * phase / pdf) * light.radiance;
     if (direct == vec3(0.0)) return found;
-    uint key = hole_key;
-    hole_key = pcg_hash(~key);  // the segment has passed holes by the numbers of `key`
+    uint own = leave_for_a_ray();  // the segment may have passed holes by these numbers
     direct *= light_left(light.ray, light.distance, light.shape, path.flight.medium);
-    hole_key = key;
+    hole_key = own;
     gather(path, direct, light.layer, path.depth + 1);
     return found;
 }

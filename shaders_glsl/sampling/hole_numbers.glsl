@@ -7,6 +7,13 @@ void leave_vertex(uint seed, int depth) {
     if (HAS_HOLE) hole_key = pcg_hash(seed ^ pcg_hash(uint(depth)));
 }
 
+// Another key, for a ray beside a segment; returns the key of the segment.
+uint leave_for_a_ray() {
+    uint own = hole_key;
+    if (HAS_HOLE) hole_key = pcg_hash(~own);
+    return own;
+}
+
 // The number for the surface that a ray meets after `passed` others.
 float hole_number(uint passed) {
     float value = unit_float(pcg_hash(hole_key + passed));

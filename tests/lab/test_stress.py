@@ -54,7 +54,8 @@ SWEEP = Sweep(
 )
 
 
-@pytest.mark.slow_cases("leave", "stretch", "caustic", "sparks", "still", "albedo", "skim")
+@pytest.mark.slow_cases("leave", "stretch", "caustic", "sparks", "still", "albedo")
+@pytest.mark.slow_cases("depth", "turn", "colors", "skim")
 @pytest.mark.slow_cases(*SLOW)
 @pytest.mark.parametrize("name", CASES)
 def test_every_case_holds_and_distinguishes_the_naive_method_from_the_chosen(

@@ -16,6 +16,11 @@ TURNS = [-0.99, -0.5, 0.0, 1e-4, 0.6, 0.99]
 UP = "vec3(0.0, 0.0, 1.0)"
 
 
+def one(value: float) -> Floats:
+    """A number for all lanes."""
+    return np.array([value])
+
+
 def below(g: float, cosine: Floats) -> Floats:
     """The chance of a turn whose cosine is below a limit."""
     if g == 0:
@@ -29,7 +34,7 @@ def test_light_turns_by_the_density(call_glsl: CallGlsl, g: float, grid: tuple[i
     rows, columns = grid
     share = np.diff(below(g, np.linspace(-1, 1, rows + 1))) / columns
     drawn = call_glsl(
-        f"sample_phase({g}, {UP}, next_2d(rng))", "vec3", setup=RNG, n=np.arange(DRAWS)
+        f"sample_phase(g, {UP}, next_2d(rng))", "vec3", setup=RNG, n=np.arange(DRAWS), g=one(g)
     )
     assert_fits(cells_of(drawn, *grid, lowest=-1.0), DRAWS * np.repeat(share, columns))
 
@@ -38,7 +43,7 @@ def test_light_turns_by_the_density(call_glsl: CallGlsl, g: float, grid: tuple[i
 def test_a_turn_is_the_inverse_of_its_distribution(call_glsl: CallGlsl, g: float) -> None:
     """Its mean is g, that of its second Legendre polynomial g^2 (Henyey and Greenstein 1941)."""
     u = (np.arange(200_000) + 0.5) / 200_000
-    cosine = call_glsl(f"sample_turn({g}, u)", u=u.astype(np.float32)).astype(np.float64)
+    cosine = call_glsl("sample_turn(g, u)", u=u.astype(np.float32), g=one(g)).astype(np.float64)
     if abs(g) > 0.01:
         exact = (1 + g * g - ((1 - g * g) / (1 - g + 2 * g * u)) ** 2) / (2 * g)
         assert_allclose(cosine, exact, atol=4e-3 if abs(g) > 0.9 else 2e-6)
@@ -50,7 +55,7 @@ def test_a_turn_is_the_inverse_of_its_distribution(call_glsl: CallGlsl, g: float
 def test_the_density_of_a_turn_keeps_its_digits(call_glsl: CallGlsl, g: float) -> None:
     angle = np.concatenate([np.linspace(0, np.pi, 1001), 10.0 ** np.linspace(-5, -1, 100)])
     to = np.stack([np.sin(angle), np.zeros_like(angle), np.cos(angle)], axis=1).astype(np.float32)
-    found = call_glsl(f"eval_phase({g}, {UP}, to)", to=to)
+    found = call_glsl(f"eval_phase(g, {UP}, to)", to=to, g=one(g))
     unit = to.astype(np.float64) / np.linalg.norm(to.astype(np.float64), axis=1, keepdims=True)
     spread = 1 + g * g - 2 * g * unit[:, 2]
     assert_allclose(found, (1 - g * g) / (4 * np.pi * spread**1.5), rtol=3e-4)
@@ -77,38 +82,37 @@ FLIGHT = """
     begin_flight(flight, throughput, rng);
     Medium medium = Medium(scattering, 0.0, extinction, 0, vec3(0.0), 0);
     float d = flight.depth / extinction[flight.channel];
-    bool collides = d < end;
-    flight.left *= share_left(extinction, min(d, end));
+    bool collides = d < 0.7;
+    flight.left *= share_left(extinction, min(d, 0.7));
     vec3 weight = collides ? weight_of_collision(flight, medium) : weight_of_flight(flight);"""
+THROUGHPUT = np.array([0.9, 0.3, 0.05])
+
+
+def flights(call_glsl: CallGlsl, scattering: list[float], extinction: list[float]) -> Floats:
+    """Weights of flights over 0.7, and 1 where they collide, (DRAWS, 4)."""
+    given = {"throughput": THROUGHPUT, "scattering": scattering, "extinction": extinction}
+    rows = {name: np.tile(np.array(it), (DRAWS, 1)) for name, it in given.items()}
+    found = call_glsl("vec4(weight, collides ? 1.0 : 0.0)", "vec4", setup=RNG + FLIGHT, **rows)
+    return found.astype(np.float64)
 
 
 def test_flights_collide_as_often_as_beer_says_in_each_channel(call_glsl: CallGlsl) -> None:
     """The mean of the throughput that passes a slab is Beer's; no weight exceeds the sum."""
-    throughput, mu = np.array([0.9, 0.3, 0.05]), np.array([0.2, 2.0, 20.0])
-    text = "vec3({}, {}, {})".format
-    setup = RNG + FLIGHT.replace("throughput", text(*throughput), 1)
-    setup = (
-        setup.replace("extinction", text(*mu))
-        .replace("scattering", text(*mu))
-        .replace("end", "0.7")
-    )
-    result = f"vec4({text(*throughput)} * weight, collides ? 1.0 : 0.0)"
-    found = call_glsl(result, "vec4", setup=setup, n=np.arange(DRAWS)).astype(np.float64)
-    assert found[:, :3].max() <= throughput.sum() * (1 + 1e-5)
+    mu = np.array([0.2, 2.0, 20.0])
+    found = flights(call_glsl, mu.tolist(), mu.tolist())
+    left = found[:, :3] * THROUGHPUT
+    assert left.max() <= THROUGHPUT.sum() * (1 + 1e-5)
     is_met = found[:, 3] > 0
     for truth, where in ((np.exp(-0.7 * mu), ~is_met), (-np.expm1(-0.7 * mu), is_met)):
-        values = found[:, :3] * where[:, None]
-        far = (values.mean(axis=0) - throughput * truth) / (values.std(axis=0) / DRAWS**0.5)
+        values = left * where[:, None]
+        far = (values.mean(axis=0) - THROUGHPUT * truth) / (values.std(axis=0) / DRAWS**0.5)
         assert (np.abs(far) < 5).all(), far
 
 
 def test_gray_flights_have_no_noise_in_their_weight(call_glsl: CallGlsl) -> None:
-    setup = RNG + FLIGHT.replace("throughput", "vec3(0.9, 0.3, 0.05)", 1)
-    for name, value in (("extinction", "vec3(2.0)"), ("scattering", "vec3(1.5)"), ("end", "0.7")):
-        setup = setup.replace(name, value)
-    found = call_glsl("vec4(weight, collides ? 1.0 : 0.0)", "vec4", setup=setup, n=np.arange(4096))
+    found = flights(call_glsl, [1.5] * 3, [2.0] * 3)
     wanted = np.where(found[:, 3:] > 0, 0.75, 1.0)
-    assert_allclose(found[:, :3], np.broadcast_to(wanted, (4096, 3)), rtol=1e-6)
+    assert_allclose(found[:, :3], np.broadcast_to(wanted, (DRAWS, 3)), rtol=1e-6)
 
 
 LAMPS = scene_of(
@@ -123,12 +127,17 @@ LAMPS = scene_of(
 def test_places_along_a_segment_follow_their_density(call_glsl: CallGlsl, end: float) -> None:
     """Its integral up to a place is the number that the place is drawn by."""
     u = ((np.arange(20_000) + 0.5) / 20_000).astype(np.float32)
-    setup = f"""
-        Approach at = Approach(vec3(0.0), vec3(0.0, 0.0, -1.0), {end:.9e}, 0.0, 1.0, 1.0);
+    setup = """
+        Approach at = Approach(vec3(0.0), vec3(0.0, 0.0, -1.0), end, 0.0, 1.0, 1.0);
         Sight sight = sight_of(at, cluster_at(0));
         float way = sample_equiangular(sight, u);"""
     found = call_glsl(
-        "vec2(way, pdf_equiangular(sight, way))", "vec2", setup=setup, scene=LAMPS, u=u
+        "vec2(way, pdf_equiangular(sight, way))",
+        "vec2",
+        setup=setup,
+        scene=LAMPS,
+        u=u,
+        end=one(end),
     )
     way, pdf = found.astype(np.float64).T
     height, foot = math.sqrt(0.5**2 + 1), 2.0

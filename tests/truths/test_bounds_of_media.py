@@ -50,7 +50,9 @@ ONE_MEANING: dict[str, tuple[Scene, Scene]] = {
 }
 
 
-@pytest.mark.slow_cases("a bound within*", "the floor after*", "everywhere", "triangles")
+@pytest.mark.slow_cases(
+    "a bound within*", "a bound in the*", "the floor after*", "everywhere", "triangles"
+)
 @pytest.mark.parametrize("name", ONE_MEANING)
 def test_two_ways_to_say_the_same_give_the_same_picture(context: Context, name: str) -> None:
     pictures = [
@@ -75,6 +77,7 @@ def test_methods_agree_in_fog(context: Context, method: str) -> None:
     assert_agree(pictures[0], pictures[1], 0.1)
 
 
+@pytest.mark.slow
 def test_glass_of_the_index_of_air_is_no_more_than_a_bound(context: Context) -> None:
     """Each of its faces is a bounce, so that the limit is high."""
     bounds = hazy(block())

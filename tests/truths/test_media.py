@@ -27,6 +27,7 @@ BODIES: dict[str, dict[str, Any]] = {  # each 1 long on the axis of the camera
 # --- without scattering: exact ---------------------------------------------------------------
 
 
+@pytest.mark.slow_cases("*-nee", "*-mis")
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("shape", BODIES)
 def test_a_medium_that_absorbs_leaves_what_beer_says(
@@ -101,6 +102,7 @@ def test_a_white_medium_under_an_even_sky_cannot_be_seen(context: Context, g: fl
     assert_mean(whole(image), [1.0] * 3, 0.03)
 
 
+@pytest.mark.slow_cases("naive", "nee")
 @pytest.mark.parametrize("method", METHODS)
 def test_a_cavity_in_equilibrium_is_even(context: Context, method: str) -> None:
     """Walls that emit what they absorb, and a medium that does the same (Kirchhoff): radiance 1."""
@@ -158,6 +160,7 @@ def test_a_ball_that_shines_is_as_bright_as_its_mean_chord(context: Context, g: 
     assert_mean(whole(image), [4 / 3 * math.pi / 4] * 3, 0.05)
 
 
+@pytest.mark.slow_cases("nee")
 @pytest.mark.parametrize("method", ["nee", "mis"])
 def test_a_lamp_in_thin_fog_is_scattered_once(context: Context, method: str) -> None:
     """s I / (4 pi) times the integral of exp(-m (t + r)) / r^2 along the ray, in float64."""
@@ -177,6 +180,7 @@ def test_a_lamp_in_thin_fog_is_scattered_once(context: Context, method: str) -> 
     assert_mean(whole(image), [truth] * 3, 0.01, floor=1e-4 * truth)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["naive", "nee"])
 def test_a_lamp_in_fog_is_found_alike(context: Context, method: str) -> None:
     """A large lamp in fog that scatters forward is met by scattering as often as it is sampled."""
@@ -263,6 +267,7 @@ def test_an_icosahedron_of_fog_is_nearly_a_ball(context: Context) -> None:
     assert (second < first).all()
 
 
+@pytest.mark.slow
 def test_lamps_in_fog_shine_through_sheets_by_chances_of_their_own(context: Context) -> None:
     """The eye looks through one sheet that is half there, and the lamp hangs behind another."""
     sheet = {"type": "principled", "color": [0.0] * 3, "specular": 0.0, "alpha": 0.5}
