@@ -7,7 +7,7 @@ void leave_vertex(uint seed, int depth) {
     if (HAS_HOLE) hole_key = pcg_hash(seed ^ pcg_hash(uint(depth)));
 }
 
-// Another key, for a ray beside a segment; returns the key of the segment.
+// Another key, for a ray to a lamp on the way of a segment; returns the key of the segment.
 uint leave_for_a_ray() {
     uint own = hole_key;
     if (HAS_HOLE) hole_key = pcg_hash(~own);
