@@ -129,6 +129,13 @@ def test_volumes_that_leave_a_place_open_are_refused_by_name(name: str) -> None:
     assert says in str(caught.value)
 
 
+def test_a_mesh_with_an_opening_bounds_no_medium() -> None:
+    points, faces = icosphere(1)
+    leaky = body(mesh((points, faces[:-1]), "none"), "fog")
+    with pytest.raises(SceneError, match="encloses nothing and cannot bound a medium"):
+        check_loaded(scene(leaky))
+
+
 def test_hidden_objects_and_panes_bound_nothing() -> None:
     hidden = {**ball(1, x=1), "hidden": True}
     found = scene(ball(1), hidden)

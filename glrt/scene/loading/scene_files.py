@@ -13,11 +13,12 @@ from glrt.scene.instancing import tree_sizes, with_own_tree
 from glrt.scene.loading.file_contents import NamedContent, is_read, with_content
 from glrt.scene.loading.mesh_parts import lacks_material, part_problem, with_own_materials
 from glrt.scene.materials.base import Opaque
-from glrt.scene.materials.kinds import Material, glass_of
+from glrt.scene.materials.kinds import Material
+from glrt.scene.materials.nothing import Nothing
 from glrt.scene.meshes.triangle_meshes import MOST_TRIANGLES
 from glrt.scene.schema.fields import SceneFields
 from glrt.scene.shapes.mesh import Mesh
-from glrt.scene.volumes import volume_problems
+from glrt.scene.volumes import bounds_a_volume, volume_problems
 
 SceneType = TypeVar("SceneType", bound=SceneFields)
 Files = Mapping[NamedContent, NamedContent]
@@ -120,10 +121,11 @@ def placing_problems(scene: SceneFields) -> Iterator[str]:
         if lacks_material(shape):
             yield f"objects[{index}].material is missing: load the scene by glrt.load"
         mesh = shape.triangles
-        glass = glass_of(scene.materials.get(shape.material))
-        if glass and mesh.opening and not glass.thin:
+        material = scene.materials.get(shape.material)
+        if mesh.opening and bounds_a_volume(material):
+            cannot = "bound a medium" if isinstance(material, Nothing) else "be dielectric"
             yield (
-                f"{key}: {mesh.opening}, so the mesh encloses nothing and cannot be dielectric. "
+                f"{key}: {mesh.opening}, so the mesh encloses nothing and cannot {cannot}. "
                 "Close it in the program that it comes from, or use another material."
             )
     yield from _without_coordinates(scene)
