@@ -69,8 +69,8 @@ def sampled(name: str) -> set[str]:
     return {source for source, is_sampled in found.items() if is_sampled}
 
 
-LIT = [name for name in scene_names() if "lamps" in sampled(name)]
-SUNNY = [name for name in scene_names() if sampled(name) == {"sun"}]
+LIT = [name for name in scene_names() if "lamps" in sampled(name) and "sun" not in sampled(name)]
+SUNNY = [name for name in scene_names() if "sun" in sampled(name)]
 UNLIT = [name for name in scene_names() if not sampled(name)]
 
 
