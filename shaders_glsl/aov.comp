@@ -5,10 +5,10 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "aov.glsl"
 #include "passes/tiles.glsl"
 
-layout(rgba32f) uniform readonly image2D source_mean;             // a: number of its samples
-layout(rgba32f) uniform readonly image2D source_variance;         // a: number of observations
-layout(rgba32f) uniform readonly image2D source_second_mean;
-layout(rgba32f) uniform readonly image2D source_second_variance;
+uniform sampler2D source_mean;             // a: number of its samples
+uniform sampler2D source_variance;         // a: number of observations
+uniform sampler2D source_second_mean;
+uniform sampler2D source_second_variance;
 layout(rgba32f) uniform writeonly image2D target_mean;
 layout(rgba32f) uniform writeonly image2D target_variance;
 layout(rgba32f) uniform writeonly image2D target_second_mean;
@@ -24,9 +24,9 @@ void main() {
     Pixel first = empty_pixel();
     Pixel second = empty_pixel();
     if (frame.is_empty == 0) {
-        first = pixel_of(imageLoad(source_mean, texel), imageLoad(source_variance, texel));
+        first = pixel_of(texelFetch(source_mean, texel, 0), texelFetch(source_variance, texel, 0));
         if (SECOND_AOV != NO_AOV) {
-            second = pixel_of(imageLoad(source_second_mean, texel), imageLoad(source_second_variance, texel));
+            second = pixel_of(texelFetch(source_second_mean, texel, 0), texelFetch(source_second_variance, texel, 0));
         }
     }
     add_aovs(first, second, frame.origin + texel);

@@ -14,6 +14,7 @@ from glrt.process.signals import postponed
 
 TILE = read_constants(read("passes/tiles.glsl"))["TILE"]  # pixels along the edge of a tile
 
+READ = "source"  # how the names of textures of a film begin that a kernel only reads
 Resource = moderngl.Buffer | moderngl.Texture
 Images = Mapping[str, moderngl.Texture]
 
@@ -40,7 +41,10 @@ class Pace:
 
 
 class Kernel:
-    """A compute shader: a tile is a work group, and images are read and written in place."""
+    """A compute shader: a tile is a work group, and images are written in place.
+
+    Images named "source..." are textures in the shader: OpenGL 4.3 grants only 8 images.
+    """
 
     def __init__(self, gl: moderngl.Context, source: Source) -> None:
         """Compile; RenderError gives the driver's message by shader file and line."""
@@ -62,11 +66,12 @@ class Kernel:
         Names that the compiler dropped need none; a missing one is a KeyError with its name.
         """
         _bind_blocks(self._program, scene)
-        _bind_textures(self._program, scene)
-        for unit, name in enumerate(images):
-            if name in self._program:
-                self._program[name] = unit
-                images[name].bind_to_image(unit)
+        read = {name: images[name] for name in images if name.startswith(READ)}
+        _bind_textures(self._program, {**scene, **read})
+        written = [name for name in images if name not in read and name in self._program]
+        for unit, name in enumerate(written):
+            self._program[name] = unit
+            images[name].bind_to_image(unit)
 
     def run(self, width: int, height: int) -> None:
         """Dispatch over a picture of this size in pixels."""
@@ -151,9 +156,10 @@ def _bind_blocks(
 def _bind_textures(
     program: moderngl.ComputeShader | moderngl.Program, resources: Mapping[str, Resource]
 ) -> None:
-    for unit, (name, texture) in enumerate(resources.items()):
+    units = count()  # OpenGL 4.3 grants 16 textures to a shader
+    for name, texture in resources.items():
         if isinstance(texture, moderngl.Texture) and name in program:
-            program[name] = unit
+            program[name] = unit = next(units)
             texture.use(unit)
 
 
