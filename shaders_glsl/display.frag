@@ -13,5 +13,6 @@ void main() {
     vec2 size = vec2(textureSize(picture, 0));
     ivec2 texel = min(ivec2(place * size), ivec2(size) - 1);
     vec3 radiance = texelFetch(picture, texel, 0).rgb;
-    color = vec4(expose_and_encode(radiance, exposure, tonemap), 1.0);
+    vec3 encoded = expose_and_encode(radiance, exposure, tonemap);
+    color = vec4(floor(255.0 * encoded + 0.5) / 255.0, 1.0);  // drivers differ in how they round to 8 bits
 }

@@ -20,9 +20,9 @@ bool is_aimed() { return CASTERS != 0 || TARGETS > 0; }
 
 int choose_emitter(float u) {
     float sum = 0.0;
-    int chosen = NO_LIGHT;
+    int chosen = 0;
     for (int i = 0; i < CLUSTERS; ++i) {
-        if (chosen == NO_LIGHT || sum <= u) chosen = i;
+        if (sum <= u) chosen = i;
         sum += cluster_at(i).probability;
     }
     return chosen;
@@ -188,14 +188,15 @@ Aspect aspect_of(int index, vec3 p, vec3 direction) {
 float pdf_emission(int index, vec3 p, vec3 direction, int certain) {
     if (SKY_SENDS) return pdf_from_sky(p, direction, certain);
     if (HAS_SUN && index == SUN_LIGHT) return pdf_from_sun(p, direction, certain);
-    Aspect aspect = aspect_of(index, p, direction);
+    int lamp = max(index, 0);  // NVIDIA refuses a constant below 0 here, though the line above returns
+    Aspect aspect = aspect_of(lamp, p, direction);
     if (aspect.by_cosine == 1.0 && aspect.cosine == 0.0) return 0.0;
     float by_angle = aspect.by_cosine;
     if (is_aimed()) {
         float aimed = frame.aimed * PI * pdf_aimed(p, direction, certain);
         by_angle = (1.0 - frame.aimed) * by_angle + aimed / larger(aspect.cosine, LEAST_COSINE);
     }
-    float pdf = cluster_at(index).probability * by_angle / aspect.area;
+    float pdf = cluster_at(lamp).probability * by_angle / aspect.area;
     if (HAS_SUN) pdf *= 1.0 - frame.from_sun;
     return pdf;
 }

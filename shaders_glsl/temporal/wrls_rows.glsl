@@ -18,13 +18,12 @@ Model model_of(Rows rows) {
     Model model;
     model.feature = rows.row[0].xyz;
     model.views = rows.row[0].w;
-    model.fit.factor = mat4(1.0);
     for (int j = 0; j < 4; j += 1) {
         model.fit.slopes[j] = rows.row[1 + j].xyz;
         model.fit.spread[j] = rows.row[1 + j].w;
     }
-    model.fit.factor[1].x = rows.row[5].x;
-    model.fit.factor[2].xy = rows.row[5].yz;
-    model.fit.factor[3].xyz = rows.row[6].xyz;
+    vec4 second = vec4(rows.row[5].x, 1.0, 0.0, 0.0);
+    vec4 third = vec4(rows.row[5].yz, 1.0, 0.0);
+    model.fit.factor = mat4(vec4(1.0, 0.0, 0.0, 0.0), second, third, vec4(rows.row[6].xyz, 1.0));
     return model;
 }

@@ -169,6 +169,13 @@ def test_on_a_gpu_rounding_passes_and_nothing_else(
     assert is_the_same_except_for_rounding(record, kernel, independent) == passes
 
 
+def shows_in(stages: set[str], found: set[str], context: Context, webgpu: Device) -> bool:
+    """Whether these stages differ, and on a processor, where all bits are equal, no other."""
+    if context.is_software and is_software(webgpu):
+        return found == stages
+    return found >= stages
+
+
 @pytest.fixture(scope="session")
 def glass_record(context: Context) -> Record:
     """The camera stands in a glass ball, the ball in a white one with a lamp."""
@@ -179,20 +186,20 @@ def glass_record(context: Context) -> Record:
 @pytest.mark.slow_cases("another seed")
 @pytest.mark.parametrize("name", FAULTS)
 def test_a_planted_fault_shows_in_the_stages_where_it_must(
-    webgpu: Device, glass_record: Record, name: str
+    webgpu: Device, context: Context, glass_record: Record, name: str
 ) -> None:
     fault, stages = FAULTS[name]
     scene = scene_named("inside glass")
     record = WgslVersion(webgpu, fault).record(scene, settings_of(scene))
-    assert differing(record, glass_record) == stages
+    assert shows_in(stages, differing(record, glass_record), context, webgpu)
 
 
 def test_ping_pong_that_is_not_swapped_shows_in_the_second_frame(
-    webgpu: Device, glass_record: Record
+    webgpu: Device, context: Context, glass_record: Record
 ) -> None:
     scene = scene_named("inside glass")
     record = WgslVersion(webgpu, tracer=Unswapped).record(scene, settings_of(scene))
-    assert differing(record, glass_record) == {MANY, DISPLAY}
+    assert shows_in({MANY, DISPLAY}, differing(record, glass_record), context, webgpu)
 
 
 def test_a_fault_that_cannot_be_planted_is_an_error() -> None:

@@ -84,7 +84,7 @@ def test_equal_samples_have_their_value_as_mean_and_no_variance(call_glsl: CallG
 
 def test_the_first_sample_is_taken_as_it_is(call_glsl: CallGlsl) -> None:
     setup = "Pixel pixel = empty_pixel(); add_sample(pixel, x, 0);"
-    first = np.array([[0.1, 2.0, 3e38], [1e-38, 0.0, 1 / 3]])
+    first = np.array([[0.1, 2.0, 3e38], [2e-38, 0.0, 1 / 3]])
     found = call_glsl("pixel.mean", "vec3", setup=setup, x=first)
     assert np.array_equal(found, first.astype(np.float32))
     assert np.all(call_glsl("pixel.variance", "vec3", setup=setup, x=first) == 0)

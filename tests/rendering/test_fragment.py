@@ -157,7 +157,9 @@ def test_each_row_of_a_texture_is_read_where_it_lies(
 
 
 @pytest.fixture
-def old_driver(monkeypatch: pytest.MonkeyPatch) -> None:
+def old_driver(monkeypatch: pytest.MonkeyPatch, context: Context) -> None:
+    if not context.is_software:
+        pytest.skip("the old driver is Mesa's software with parts taken away")
     for name, value in OLD_DRIVER.items():
         monkeypatch.setenv(name, value)
 
@@ -166,8 +168,6 @@ def old_driver(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_a_driver_without_compute_renders_the_same_picture(
     route: str, tmp_path: Path, old_driver: None, context: Context
 ) -> None:
-    if not context.is_software:
-        pytest.skip("the old driver is Mesa's software with parts taken away")
     if route == "osmesa":
         needs_osmesa()
     arguments = ["--width", "32", "--height", "24", "--samples", "5", "--context", route]

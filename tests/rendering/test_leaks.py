@@ -45,9 +45,10 @@ def test_ball_is_tight(context: Context, half: float) -> None:
 @pytest.mark.slow_cases("quads")
 @pytest.mark.parametrize("walls", [room_of_planes, box_of_quads], ids=["planes", "quads"])
 def test_rooms_are_all_but_tight(context: Context, walls: Any) -> None:
-    """A point in the very edge of two walls may round past one: some 3 in 100 million segments."""
+    """A point in the very edge of two walls may round past one: some 3 in 100 million segments;
+    on NVIDIA's driver, 2 in 10 million."""
     leaked, segments = leaked_pixels(context, walls("glow", 1.1), 2, 1.1)
-    assert leaked <= 1e-7 * segments
+    assert leaked <= 3e-7 * segments
 
 
 @pytest.mark.slow

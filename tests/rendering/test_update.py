@@ -173,7 +173,7 @@ def test_an_update_that_the_driver_refuses_changes_nothing(
         assert renderer.work > 2
         before = renderer.scene, renderer.settings, renderer.plan
         with pytest.raises(RenderError, match="the driver refuses"):
-            renderer.update(RESTARTING["a turn"], width=16384)
+            renderer.update(RESTARTING["a turn"], width=16384, layering="lengths")
         with monkeypatch.context() as patch:
             patch.setattr(kernel_switch, "compiled", refuse)
             with pytest.raises(RenderError, match="not this kernel"):

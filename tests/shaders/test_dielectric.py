@@ -35,7 +35,7 @@ def test_reflectance_at_normal_incidence_and_at_brewsters_angle(
     at = call_glsl("fresnel(c, eta)", c=np.array([1.0, brewster, 0.0]), eta=np.array([1 / ior]))
     assert at[0] == pytest.approx(((ior - 1) / (ior + 1)) ** 2, rel=1e-5, abs=1e-13)
     assert at[1] == pytest.approx(polarised / 2, rel=1e-5, abs=1e-13)
-    assert at[2] == 1
+    assert at[2] == pytest.approx(1, abs=ULP)  # a quotient of equal numbers, on NVIDIA
 
 
 def test_reflectance_has_the_published_values(call_glsl: CallGlsl) -> None:
@@ -127,7 +127,8 @@ def test_refraction_obeys_snell_and_reflection_is_its_mirror_image(
 def test_without_an_interface_light_goes_straight_on(call_glsl: CallGlsl) -> None:
     n = directions(1000)
     wo = wo_at(np.linspace(0.001, 1, len(n)))
-    args = {"n": n, "wo": wo, "eta": np.array([1.0]), "u": np.array([0.0])}
+    least = np.array([1e-9])  # reflectance is below: 0, unless the driver's roots are inexact
+    args = {"n": n, "wo": wo, "eta": np.array([1.0]), "u": least}
     assert np.abs(through_glass(call_glsl, "local", "vec3", **args) + wo).max() < 1e-6
     assert np.all(through_glass(call_glsl, "next.crosses", "bool", **args))
 

@@ -10,6 +10,8 @@ import pytest
 from tests.conftest import CallGlsl
 from tests.support.numerics import ULP, corners, directions, length, unit_square
 
+ROUND = 4 * ULP  # of the length of a direction: NVIDIA's sine and cosine are off by up to 12 x 2^-24
+
 
 def test_a_normalized_vector_has_length_one_at_every_scale(call_glsl: CallGlsl) -> None:
     random = np.random.default_rng(2)
@@ -39,7 +41,7 @@ def test_the_hemisphere_is_filled_by_the_cosine(call_glsl: CallGlsl) -> None:
     assert (z**4).mean() == pytest.approx(1 / 3, abs=2e-6)
     assert np.abs([x.mean(), y.mean(), (x * y).mean()]).max() < 2e-6
     assert (x**2).mean() == pytest.approx(1 / 4, abs=2e-6)
-    assert np.abs(length(wi) - 1).max() < 2 * ULP
+    assert np.abs(length(wi) - 1).max() < ROUND
 
 
 def test_no_direction_of_the_hemisphere_lies_in_the_surface(call_glsl: CallGlsl) -> None:
@@ -61,7 +63,7 @@ def test_a_cone_is_filled_evenly_by_solid_angle(call_glsl: CallGlsl, one_minus_c
     assert drop.max() <= one_minus_cos * (1 + 1e-5)
     assert (w[:, 0] * w[:, 1]).mean() == pytest.approx(0, abs=2e-6 * one_minus_cos)
     assert np.abs(w[:, :2].mean(axis=0)).max() < 2e-6 * np.sqrt(one_minus_cos)
-    assert np.abs(length(w) - 1).max() < 2 * ULP
+    assert np.abs(length(w) - 1).max() < ROUND
 
 
 def test_a_cone_keeps_its_digits_however_narrow(call_glsl: CallGlsl) -> None:
@@ -105,5 +107,5 @@ def test_products_are_summed_in_one_order(call_glsl: CallGlsl) -> None:
     assert (expected != other).mean() > 0.1
     assert (call_glsl("dot(a, b)", a=a, b=b) == expected).all()
     squares = a * a
-    roots = np.sqrt(squares[:, 0] + (squares[:, 1] + squares[:, 2]))
-    assert (call_glsl("length(a)", a=a) == roots).all()
+    sums = squares[:, 0] + (squares[:, 1] + squares[:, 2])
+    assert (call_glsl("length(a)", a=a) == call_glsl("sqrt(a)", a=sums)).all()
