@@ -10,7 +10,9 @@ import pytest
 from tests.conftest import CallGlsl
 from tests.support.numerics import ULP, corners, directions, length, unit_square
 
-ROUND = 4 * ULP  # of the length of a direction: NVIDIA's sine and cosine are off by up to 12 x 2^-24
+ROUND = (
+    4 * ULP
+)  # of the length of a direction: NVIDIA's sine and cosine are off by up to 12 x 2^-24
 
 
 def test_a_normalized_vector_has_length_one_at_every_scale(call_glsl: CallGlsl) -> None:
