@@ -1,8 +1,8 @@
 """How many images, textures and blocks a kernel declares, for a scene with one of each thing.
 
 Drivers refuse more than they grant, and they differ: Mesa grants a compute shader 32 images,
-NVIDIA's driver 8. The numbers are those that OpenGL 4.3 promises for compute shaders and 4.1 for
-fragment shaders. Textures are the exception: OpenGL promises 16, which one of each thing exceeds,
+NVIDIA's driver 8. OpenGL 4.3 promises these numbers for compute shaders, and 4.1 for fragment
+shaders. Textures are the exception: OpenGL promises 16, which one of each thing exceeds,
 and the drivers of AMD, Intel and NVIDIA grant 32.
 """
 

@@ -41,7 +41,12 @@ def test_every_shader_file_is_compiled_by_a_test() -> None:
         *("particles.comp", "splats.comp", "integrators/particles.glsl", "film/splat_unit.glsl"),
         *("integrators/particle_start.glsl", "integrators/camera_links.glsl"),
         *("trace.comp", "paths.comp", "structs/path_records.glsl"),
-        *("passes/tiles.glsl", "passes/tonemap.glsl", "passes/film_sources.glsl"),
+        *(
+            "passes/tiles.glsl",
+            "passes/tonemap.glsl",
+            "passes/film_sources.glsl",
+            "passes/aov_sources.glsl",
+        ),
         "sampling/other_hash.glsl",
         *("trace.vert", "trace.frag", "weighting.frag", "false_colors.frag"),
         *("surfaces.glsl", "surfaces.comp", "surfaces.frag", "integrators/middle_ray.glsl"),
