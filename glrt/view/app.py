@@ -60,6 +60,7 @@ class App(CameraMoves):
     rectangle: Rectangle = (0.0, 0.0, 1.0, 1.0)  # of the picture on the screen, in pixels
     zoom: Zoom = FIT
     inspects: bool = False  # whether the values of the pixel under the mouse are shown
+    shows_keys: bool = False  # whether all keys are shown over the window
     paths: PathExplorer = field(init=False)
     tour_step: int | None = 0  # step on the screen; None: closed until the next start
     tour_beside: tuple[float, float] = (0.0, 0.0)  # window size when the tour was placed
@@ -159,6 +160,17 @@ class App(CameraMoves):
     def inspect(self) -> None:
         """Show or hide the values of the pixel under the mouse."""
         self.inspects = not self.inspects
+
+    def toggle_keys(self) -> None:
+        """Show or hide all keys."""
+        self.shows_keys = not self.shows_keys
+
+    def escape(self) -> None:
+        """Close what lies over the window, else leave the paths."""
+        if self.shows_keys:
+            self.shows_keys = False
+        else:
+            self.end_paths()
 
     def choose_paths(self) -> None:
         """Let clicks choose a pixel for its paths, or let them select objects again."""

@@ -39,6 +39,7 @@ class Control:
     high: float | None = None
     slider: tuple[float, float] | None = None
     choices: tuple[Any, ...] = ()
+    default: Any = None  # a double click sets it; None if there is none
     told: tuple[str, ...] = ()  # explanation of each choice; empty if the words suffice
     reach: tuple[float, Cost] | None = None  # largest value of this cost, and the cost beyond it
 
@@ -132,6 +133,7 @@ def _control(name: str, field: FieldInfo) -> Control | None:
         high,
         slider or (None if low is None or high is None or high > 1e6 else (low, high)),
         get_args(plain) if kind == "choice" else (),
+        None if field.is_required() or kind == "switch" else field.default,
     )
 
 

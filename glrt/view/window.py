@@ -24,6 +24,7 @@ from glrt.view.file_watch import Watch
 from glrt.view.messages import Messages
 from glrt.view.opengl import INSTEAD, window_version, wrap_window
 from glrt.view.panels.confirmations import draw_question
+from glrt.view.panels.key_overlay import draw_key_overlay
 from glrt.view.panels.layout import Shares
 from glrt.view.panels.panel import draw_panel
 from glrt.view.panels.plots import draw_figures
@@ -73,6 +74,7 @@ THEMES = {
     "light": hello_imgui.ImGuiTheme_.light_rounded,
 }
 GONE = "no window can be opened, though the display was there a moment ago"
+TOOLTIP_AFTER = 0.5  # seconds that the mouse rests on a row
 KEEP_EVERY = 2.0  # seconds between checks whether preferences must be written
 
 
@@ -223,11 +225,13 @@ class Window:
             hello_imgui.apply_theme(THEMES[wanted[0]])
             imgui.get_style().font_scale_main = wanted[1]
             _make_opaque(imgui.Col_.popup_bg)
+            imgui.get_style().hover_delay_short = TOOLTIP_AFTER
             imgui.get_style().frame_border_size = 1.0  # edges for light boxes on a light ground
 
     def _ask(self) -> None:
         """Draw the popups above the panels: tour, question and file dialog."""
         draw_tour(self.app)
+        draw_key_overlay(self.app)
         draw_question(self.app)
         self.app.files.dialogs.poll(is_drawn=True)
 

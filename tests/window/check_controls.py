@@ -3,8 +3,9 @@
 from typing import Any
 
 import pytest
+from imgui_bundle import imgui
 
-from glrt.settings import Cost
+from glrt.settings import Cost, Settings
 from glrt.view.controls import Control
 from glrt.view.panels import background, lights, panel, sun
 from glrt.view.widgets import fields
@@ -156,3 +157,26 @@ def buttons_and_boxes_of_the_scene_restart_it(hand: Hand) -> None:
     ctx.item_click("home")
     hand.settle()
     assert session.scene.camera == start.camera
+
+
+@check
+def a_double_click_sets_the_default(hand: Hand) -> None:
+    """On a slider, and on the label of a control; one step of undo brings the value back."""
+    ctx = hand.ctx
+    ctx.set_ref("Controls")
+    for reference, name, value in (("bounces", "bounces", 3), ("exposure", "exposure", 1.5)):
+        ctx.item_input_value(reference, value)
+        hand.settle()
+        assert getattr(hand.session.settings, name) == value
+        ctx.item_double_click(reference)
+        hand.settle()
+        assert getattr(hand.session.settings, name) == Settings.model_fields[name].default
+    ctx.key_press(imgui.Key.mod_ctrl.value | imgui.Key.z.value)
+    hand.settle()
+    assert hand.session.settings.exposure == 1.5
+    move(hand, "method/naive", None)
+    item = ctx.item_info("//Controls/method")
+    ctx.mouse_move_to_pos((item.rect_full.max.x + 20, item.rect_full.get_center().y))
+    ctx.mouse_double_click(0)
+    hand.settle()
+    assert hand.session.settings.method == "mis"

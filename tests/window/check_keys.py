@@ -1,7 +1,11 @@
 """Keys that are typed, and keys that are chosen."""
 
+import pytest
 from imgui_bundle import imgui
 
+from glrt.view.controls import replaced
+from glrt.view.panels.key_overlay import NAME
+from glrt.view.state.keys import MEANING
 from glrt.view.state.preferences import Preferences
 from tests.window.gestures import drag, press
 from tests.window.hand import Hand, check
@@ -129,3 +133,40 @@ def a_click_in_the_picture_gives_it_the_keys_again(hand: Hand) -> None:
     assert not app.navigates
     press(hand, imgui.Key.right_arrow)
     assert hand.session.scene.camera != start
+
+
+@check
+def f1_shows_all_keys_over_the_window(hand: Hand) -> None:
+    """As the user has chosen them; F1, Escape or a click elsewhere closes the box."""
+    app = hand.window.app
+    app.prefer(replaced(app.preferences, bindings={**app.preferences.bindings, "home": ("f9",)}))
+    shown: dict[str, str] = {}
+
+    def box() -> imgui.internal.Window | None:
+        return imgui.internal.find_window_by_name(NAME)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("glrt.view.panels.key_overlay._table", lambda _, rows: shown.update(rows))
+        press(hand, imgui.Key.f1)
+    assert app.shows_keys
+    assert shown["F9"] == MEANING["home"]
+    assert shown["Ctrl+Y or Ctrl+Shift+Z"] == MEANING["redo"]
+    assert shown["left drag"] == "turn about the pivot"
+    hand.ctx.yield_(3)
+    found = hand.there(box)
+    assert found
+    assert found.active
+    area = hand.there(lambda: imgui.get_main_viewport().size)
+    assert 0.3 * area.x < found.size.x <= area.x
+    assert 0.2 * area.y < found.size.y <= area.y
+    press(hand, imgui.Key.escape)
+    assert not app.shows_keys
+    press(hand, imgui.Key.f1)
+    assert app.shows_keys
+    press(hand, imgui.Key.f1)
+    assert not app.shows_keys
+    press(hand, imgui.Key.f1)
+    hand.ctx.mouse_move_to_pos((area.x - 4, area.y - 4))
+    hand.ctx.mouse_click(0)
+    hand.ctx.yield_(2)
+    assert not app.shows_keys

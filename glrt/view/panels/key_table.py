@@ -9,7 +9,7 @@ from glrt.view.state import keys
 from glrt.view.state.keys import Action
 from glrt.view.widgets.fields import beside, button, tip
 
-_MOUSE = {  # in the picture
+MOUSE = {  # in the picture
     "left drag": "turn about the pivot; in fly mode: look around",
     "right drag": "look around; in fly mode: turn about the pivot",
     "middle drag": "shift",
@@ -27,7 +27,7 @@ def draw_key_table(app: App) -> None:
 
     After a click on a key, the next key that is pressed replaces it.
     """
-    for gesture, meaning in _MOUSE.items():
+    for gesture, meaning in MOUSE.items():
         imgui.text(gesture)
         imgui.same_line(hello_imgui.em_size(7))
         imgui.text_wrapped(meaning)

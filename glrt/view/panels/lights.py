@@ -5,6 +5,7 @@ from functools import partial
 from imgui_bundle import imgui
 
 from glrt.core.memo import kept_for_the_same
+from glrt.plan.methods import METHODS
 from glrt.scene.lit_scene import SKY_GROUP
 from glrt.scene.materials.base import Opaque
 from glrt.scene.materials.light import Light
@@ -21,12 +22,20 @@ _NO_ROOM = (
     "At this size the driver has no room to keep the light of each lamp or bounce apart: a change "
     "of light restarts the picture. A smaller picture has room."
 )
+_MIXED = (
+    "Probes hold the light of all lamps and bounces in one: with this method, a change of light "
+    "restarts the picture."
+)
 
 
 def draw_lights(app: App) -> None:
     """Draw a slider for each light group, and the colours of its lamps."""
     scene = app.session.scene
-    if app.session.lacks_room:
+    if METHODS[app.session.settings.method].has_probes:
+        imgui.push_text_wrap_pos(0.0)
+        imgui.text_disabled(_MIXED)
+        imgui.pop_text_wrap_pos()
+    elif app.session.lacks_room:
         imgui.push_text_wrap_pos(0.0)
         imgui.text_disabled(_NO_ROOM)
         imgui.pop_text_wrap_pos()

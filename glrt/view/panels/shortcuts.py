@@ -25,6 +25,7 @@ _COMMANDS: dict[Action, Callable[[App], object]] = {  # command of each action
     "one_to_one": lambda app: app.zoom_to(1.0),
     "inspect": lambda app: app.inspect(),
     "paths": lambda app: app.choose_paths(),
+    "keys": lambda app: app.toggle_keys(),
     "panel": lambda app: navigate(app, not app.navigates),
     "undo": lambda app: app.undo(),
     "redo": lambda app: app.redo(),
@@ -61,7 +62,7 @@ def draw_keys(app: App) -> None:
     if is_left:
         navigate(app, False)
     elif is_free and imgui.is_key_pressed(imgui.Key.escape, False):
-        app.end_paths()
+        app.escape()
     seconds = min(io.delta_time, _LONGEST_STEP)
     moves = {} if app.navigates else _AXES
     held = [axis for action, axis in moves.items() if _is_held(app, action)]

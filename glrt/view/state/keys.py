@@ -8,7 +8,7 @@ Move = Literal["forward", "back", "left", "right", "up", "down"]
 Action = (
     Move
     | Literal["home", "frame", "pause", "undo", "redo"]
-    | Literal["fit", "one_to_one", "inspect", "paths", "panel"]
+    | Literal["fit", "one_to_one", "inspect", "paths", "panel", "keys"]
     | Literal["duplicate", "delete", "open", "save_scene", "save_scene_as", "save", "quit"]
 )
 Bindings = dict[Action, tuple[str, ...]]
@@ -28,6 +28,7 @@ DEFAULTS: Bindings = {
     "inspect": ("i",),
     "paths": ("p",),
     "panel": ("f6",),
+    "keys": ("f1",),
     "undo": ("ctrl+z",),
     "redo": ("ctrl+y", "ctrl+shift+z"),
     "duplicate": ("ctrl+d",),
@@ -53,6 +54,7 @@ MEANING: dict[Action, str] = {
     "inspect": "show pixel values",
     "paths": "choose a pixel for its paths",
     "panel": "move in the panel by keys, and back",
+    "keys": "show these keys",
     "undo": "undo",
     "redo": "redo",
     "duplicate": "duplicate the selection",

@@ -15,6 +15,7 @@ from glrt.settings import Cost, Settings, settings_for
 from glrt.view.edits.edited_state import State
 
 OWN_NUMBERS: dict[Number, Mode] = {"weight": "wrls", "mask": "ataa"}
+TRANSPORT = "method", "bounces", "roulette", "sampler"  # settings with a history of their own
 MOST_SEED = 0xFFFFFFFF
 GOLDEN = 0x9E3779B1  # from one seed to the next, far from seeds that users choose
 
@@ -58,8 +59,14 @@ class MovingPicture:
             self._temporal.release()
             self._temporal, self._wanted = Temporal(self._gl, way), way
 
-    def leave(self, renderer: Renderer, weights: Weights) -> str:
-        """Keep what is shown as history before an edit; returns a refusal of the driver, or ""."""
+    def leave(self, renderer: Renderer, weights: Weights, wanted: Settings) -> str:
+        """Keep what is shown as history before an edit; returns a refusal of the driver, or "".
+
+        Light that other settings transport is dropped: it would be in the picture for END samples.
+        """
+        if any(getattr(renderer.settings, name) != getattr(wanted, name) for name in TRANSPORT):
+            self.forget()
+            return ""
         try:
             self._temporal.leave(renderer, weights)
         except RenderError as error:

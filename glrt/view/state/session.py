@@ -242,8 +242,9 @@ class Session(Editing):
         if not self.renderer:
             self.renderer, cost = self._open(wanted), Cost.RECOMPILE
         else:
-            self.problem = self.moving.leave(self.renderer, self.weights) or self.problem
             edits = dict(wanted.settings)
+            refusal = self.moving.leave(self.renderer, self.weights, wanted.settings)
+            self.problem = refusal or self.problem
             scene, way = wanted.scene, (self.layering, self._hysteresis)
             cost = self.last_cost = self.renderer.update(scene, *way, **edits)
         if cost in (Cost.RESTART, Cost.RECOMPILE):

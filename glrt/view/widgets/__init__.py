@@ -5,5 +5,6 @@ Modules, each importing only what stands above it:
 - slider_text: text of a slider
 - steady_widget: keeps the last used widget in place
 - cost_badges: badges that show the cost of an edit
+- reset: a double click that sets the default
 - fields: one widget for each kind of field
 """

@@ -11,6 +11,7 @@ from glrt.settings import Cost
 from glrt.view.controls import MEANING, Control
 from glrt.view.state.explanations import explanation_of
 from glrt.view.widgets.cost_badges import tag, tags, tags_start
+from glrt.view.widgets.reset import default_text, reset_or
 from glrt.view.widgets.slider_text import Slider, share_of, text_next_to_grip
 from glrt.view.widgets.steady_widget import ANCHOR
 
@@ -39,8 +40,11 @@ def edited(control: Control, value: Any, name: str = "") -> Any:
 
 
 def _drawn_next_to(control: Control, label: str, value: Any) -> tuple[bool, Any]:
-    imgui.set_next_item_width(_width_next_to(control.label))
+    width = _width_next_to(control.label)
+    imgui.set_next_item_width(width)
     drawn = _draw(control, label, value)
+    is_label = imgui.get_io().mouse_pos.x > imgui.get_item_rect_min().x + width
+    drawn = reset_or(drawn, control, is_label)
     tooltip(control, label)
     tags(control)
     return drawn
@@ -49,10 +53,12 @@ def _drawn_next_to(control: Control, label: str, value: Any) -> tuple[bool, Any]
 def _drawn_below(control: Control, label: str, value: Any) -> tuple[bool, Any]:
     """Draw a widget below its label; the widget's own label, its id, is cut off."""
     imgui.text(control.label)
+    drawn = reset_or((False, value), control, is_label=True)
     tags(control)
-    drawn = _clipped(lambda: _draw(control, label, value))
+    below = _clipped(lambda: _draw(control, label, value))
+    below = reset_or(below, control, is_label=False)
     tooltip(control, label)
-    return drawn
+    return drawn if drawn[0] else below
 
 
 def _clipped(draw: Callable[[], Drawn]) -> Drawn:
@@ -115,7 +121,7 @@ def tip(text: str, widget: int = 0) -> None:
     `widget`: see `Anchor.note`.
     """
     ANCHOR.note(widget)
-    if imgui.begin_item_tooltip():
+    if not imgui.is_mouse_down(0) and imgui.begin_item_tooltip():
         imgui.push_text_wrap_pos(hello_imgui.em_size(_TIP))
         imgui.text_unformatted(text)
         imgui.pop_text_wrap_pos()
@@ -130,7 +136,8 @@ def tooltip(control: Control, label: str) -> None:
         f"{cost.value} {where}".strip() + f": {MEANING[cost]}" for cost, where in control.costs
     )
     why = explanation_of(control)
-    told = "\n".join([f"{help_text}{unit}", *costs, *(["", why] if why else [])])
+    lines = [f"{help_text}{unit}", *default_text(control), *costs, *(["", why] if why else [])]
+    told = "\n".join(lines)
     tip(told, imgui.get_id(label))
 
 
