@@ -33,6 +33,7 @@ from glrt.view.viewport.black import Blackness
 from glrt.view.viewport.pick import Picked, pick
 from glrt.view.viewport.picture import Picture
 from glrt.view.viewport.picture_view import PictureView
+from glrt.view.viewport.silhouette import Silhouette
 from glrt.view.viewport.transform import clear_of
 
 SIZE = 0.07  # half the size of a new object, in distances from the camera to the pivot
@@ -62,6 +63,7 @@ class App(CameraMoves):
     inspects: bool = False  # whether the values of the pixel under the mouse are shown
     shows_keys: bool = False  # whether all keys are shown over the window
     paths: PathExplorer = field(init=False)
+    silhouette: Silhouette = field(init=False)  # of the selected mesh
     tour_step: int | None = 0  # step on the screen; None: closed until the next start
     tour_beside: tuple[float, float] = (0.0, 0.0)  # window size when the tour was placed
     outside: tuple[float, float] = (35.0, 25.0)  # degrees, of the view of paths from outside
@@ -78,6 +80,7 @@ class App(CameraMoves):
     def __post_init__(self, source: str) -> None:
         """Create the parts that depend on the session and on the opened source."""
         self.paths = PathExplorer(self.session.context)
+        self.silhouette = Silhouette(self.session.context.gl)
         self.pair = Pair(self.session, self.show, self.restart)
         recent = self.preferences_file.with_name("recent.json")
         self.files = Files(

@@ -250,6 +250,7 @@ class Window:
         self.app.pair.go_on(False)
         self.app.show.release()
         self.app.paths.release()
+        self.app.silhouette.release()
         self.app.files.dialogs.close()
         self.app.session.release()
 

@@ -55,6 +55,7 @@ def test_every_shader_file_is_compiled_by_a_test() -> None:
         *("taa.frag", "bring_models.frag", "reconstruct.frag", "predict.frag", "predictions.frag"),
         *(f"temporal/{name}.glsl" for name in TEMPORAL),
         *("ataa_mask.frag", "ataa.frag", "gather.comp", "more.comp"),
+        *("silhouette.vert", "silhouette.frag", "silhouette_line.frag"),  # by tests/view
         *("probe_balls.vert", "probe_balls.frag", "passes/probe_balls.glsl"),
         *DISPLAY_STAGES,
         *PROBES,

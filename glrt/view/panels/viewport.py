@@ -6,6 +6,7 @@ import time
 from imgui_bundle import ImVec2, imgui
 
 from glrt.core.memo import kept_for_the_same
+from glrt.scene.shapes.mesh import Mesh
 from glrt.view.app import App
 from glrt.view.panels.gizmo import draw_gizmo, is_held
 from glrt.view.panels.inspector import pixel_text
@@ -32,6 +33,7 @@ _EVERY_BUTTON = int(
     | imgui.ButtonFlags_.mouse_button_middle
 )
 _FRAMED = 4.0  # screen pixels: from this size on, the pixel under the mouse gets a frame
+_FADED = 0.2  # opacity of the outline during a drag
 _OUTLINE = (0.0, 0.0, 0.0, 0.6), (1.0, 0.62, 0.1, 1.0)
 
 
@@ -54,7 +56,7 @@ def draw_viewport(app: App) -> None:
         draw_side_by_side(app, seen, room.x)
     elif is_wiped:
         draw_wipe(app, seen)
-    _outline(app)
+    _outline(app, seen)
     draw_paths(app, seen)
     draw_gizmo(app, corner.x, corner.y, width, height)
     draw_outside(app, seen)
@@ -149,18 +151,25 @@ def _pixel_values(app: App, seen: Rectangle) -> None:
         imgui.get_window_draw_list().add_rect((x, y), (x + pixel[0], y + pixel[1]), color)
 
 
-def _outline(app: App) -> None:
-    """Draw the outline of the selected object."""
+def _outline(app: App, seen: Rectangle) -> None:
+    """Draw the outline of the selected object, fainter while the mouse drags something."""
     shape = app.selected_shape
-    if shape is None or shape.hidden:
+    if shape is None or shape.hidden or min(seen[2:]) < 1:
         return
     left, top, width, height = app.rectangle
     settings = app.session.settings
     painter, here = imgui.get_window_draw_list(), (left, top)
+    fade = _FADED if imgui.is_any_item_active() else 1.0
+    if isinstance(shape, Mesh):
+        line = app.silhouette.draw(shape, app.camera, app.rectangle, seen)
+        corner, end = seen[:2], (seen[0] + seen[2], seen[1] + seen[3])
+        tint = imgui.get_color_u32((1.0, 1.0, 1.0, fade))
+        painter.add_image(imgui.ImTextureRef(line.glo), corner, end, (0, 1), (1, 0), tint)
+        return
     lines = _edges(shape, app.camera, settings.width / settings.height)
     places = (lines * (width, height) + here).tolist()
     painter.push_clip_rect(here, (left + width, top + height), True)
-    dark, bright = (imgui.get_color_u32(color) for color in _OUTLINE)
+    dark, bright = (imgui.get_color_u32((*color[:3], fade * color[3])) for color in _OUTLINE)
     for color, thickness in ((dark, 3.0), (bright, 1.5)):  # visible on any picture
         for start, end in places:
             painter.add_line(start, end, color, thickness)

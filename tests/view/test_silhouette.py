@@ -1,0 +1,84 @@
+"""The line around a mesh in the picture, against rays that meet the mesh or do not."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import moderngl
+import numpy as np
+import pytest
+
+from glrt.scene.camera import Camera
+from glrt.scene.shapes.mesh import Mesh
+from glrt.view.controls import replaced
+from glrt.view.state.zoom import Rectangle
+from glrt.view.viewport.silhouette import Silhouette
+from tests.view.test_outline import CAMERA, ball_mesh, is_met
+
+WIDTH, HEIGHT = 96, 64  # of the aspect that `is_met` takes
+PLACE: Rectangle = (10.0, 20.0, float(WIDTH), float(HEIGHT))
+MESH = ball_mesh(rotate=(10, 20, 30), translate=(0.2, 0.1, 0.3))
+FAR = 4  # pixels that the line reaches, at most
+
+
+@pytest.fixture
+def silhouette(ctx: moderngl.Context) -> Iterator[Silhouette]:
+    drawn = Silhouette(ctx)
+    yield drawn
+    drawn.release()
+
+
+def alpha(
+    silhouette: Silhouette, mesh: Mesh = MESH, camera: Camera = CAMERA, seen: Rectangle = PLACE
+) -> Any:
+    """Opacity of the line, row 0 on top."""
+    texture = silhouette.draw(mesh, camera, PLACE, seen)
+    rows = np.frombuffer(texture.read(), np.uint8).reshape(texture.height, texture.width, 4)
+    return rows[::-1, :, 3] / 255
+
+
+def covered() -> Any:
+    """The pixels whose middle a ray through the mesh passes, (HEIGHT, WIDTH)."""
+    places = [((x + 0.5) / WIDTH, (y + 0.5) / HEIGHT) for y in range(HEIGHT) for x in range(WIDTH)]
+    return np.array([is_met(MESH, x, y) for x, y in places]).reshape(HEIGHT, WIDTH)
+
+
+def test_the_line_lies_around_the_mesh_and_leaves_it_free(silhouette: Silhouette) -> None:
+    line, inside = alpha(silhouette), covered()
+    assert 200 < inside.sum() < 0.5 * inside.size
+    around = np.zeros_like(inside)
+    near = np.zeros_like(inside)
+    for y in range(-FAR, FAR + 1):
+        for x in range(-FAR, FAR + 1):
+            moved = np.roll(inside, (y, x), (0, 1))
+            near |= moved & (abs(y) + abs(x) <= 1)
+            around |= moved
+    assert (line[inside] > 0).mean() < 0.01  # of rays through the very rim
+    assert (line[near & ~inside] == 1).mean() > 0.99
+    assert (line[~around] == 0).all()
+
+
+def test_a_magnified_part_has_the_line_of_that_part(silhouette: Silhouette) -> None:
+    whole = alpha(silhouette)
+    seen = (10.0 + 16, 20.0 + 8, 48.0, 40.0)
+    part = alpha(silhouette, seen=seen)
+    assert part.shape == (40, 48)
+    inner = np.s_[FAR:-FAR, FAR:-FAR]  # beyond its edges nothing is known of the mesh
+    assert (part[inner] != whole[8:48, 16:64][inner]).mean() < 0.01
+    assert part.any()
+
+
+def test_a_mesh_that_moves_or_is_edited_is_drawn_again(silhouette: Silhouette) -> None:
+    before = alpha(silhouette)
+    assert np.array_equal(alpha(silhouette), before)
+    moved = alpha(silhouette, replaced(MESH, translate=(0.6, 0.1, 0.3)))
+    assert not np.array_equal(moved, before)
+    assert np.array_equal(alpha(silhouette, replaced(MESH, translate=MESH.translate)), before)
+    turned = alpha(silhouette, camera=replaced(CAMERA, fov=70.0))
+    assert 0 < turned.sum() < before.sum()
+
+
+def test_behind_the_camera_and_around_it_there_is_no_line(silhouette: Silhouette) -> None:
+    away = replaced(CAMERA, look_at=(0.4, 0.7, 9.0))
+    assert not alpha(silhouette, camera=away).any()
+    within = Camera(position=(0.2, 0.1, 0.3), look_at=(0.2, 0.1, -1.0), fov=50.0)
+    assert not alpha(silhouette, camera=within).any()
