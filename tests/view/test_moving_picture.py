@@ -1,6 +1,7 @@
 """History in the window: shown while the camera moves, and not where an error is reported."""
 
 from collections.abc import Callable, Iterator
+from typing import Any
 
 import moderngl
 import pytest
@@ -250,3 +251,26 @@ def test_another_seed_is_taken_at_once(moving: Session) -> None:
     assert moving.last_cost is Cost.RESTART
     assert moving.renderer
     assert moving.renderer.settings.seed not in (0, 7)  # while edits come in a row
+
+
+@pytest.mark.parametrize("name", ["bounces", "roulette", "sampler", "method"])
+def test_light_that_other_settings_transport_is_no_history(moving: Session, name: str) -> None:
+    """It would be in the picture until END samples; a moved camera brings history again."""
+    changes: dict[str, Any] = {
+        "bounces": 1,
+        "roulette": not moving.settings.roulette,
+        "sampler": "independent",
+        "method": "nee",
+    }
+    walk(moving)
+    assert is_shown(moving)
+    moving.edit(**{name: changes[name]})
+    while moving.is_behind:
+        moving.advance(0.01, count=1)
+    assert moving.samples < END
+    assert not is_shown(moving)
+    assert shows_the_film(moving)
+    back = replaced(moving.scene.camera, position=(0.1, 0.1, 2.6))
+    moving.edit(replaced(moving.scene, camera=back), "camera")
+    moving.advance(0.01, count=1)
+    assert is_shown(moving)

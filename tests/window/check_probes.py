@@ -1,5 +1,8 @@
 """Methods with probes in the window: their control, and what an edit of a lamp costs there."""
 
+import pytest
+from imgui_bundle import imgui
+
 from glrt.core.errors import UsageError
 from glrt.scene.scene import with_lights
 from glrt.settings import Cost
@@ -128,3 +131,15 @@ def probes_are_shown_as_balls(hand: Hand) -> None:
     assert 0.02 < colored.mean() < 0.5
     assert (colored & ~changed).mean() < 0.02, "at the same places"
     assert distances[~colored].max() < 80, "over a dark picture"
+
+
+@check
+def a_method_that_mixes_the_light_of_lamps_is_named_as_the_reason(hand: Hand) -> None:
+    """A smaller picture would not help."""
+    texts: list[str] = []
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(imgui, "text_disabled", texts.append)
+        hand.session.edit(method="ddgi")
+        hand.settle()
+        assert any("Probes hold the light of all lamps" in text for text in texts)
+        assert not any("A smaller picture has room" in text for text in texts)
