@@ -15,7 +15,7 @@ from glrt.scene.shapes.kinds import Shape
 from glrt.scene.values import Vector
 from glrt.view.camera_moves import CameraMoves
 from glrt.view.compared_picture import Pair
-from glrt.view.edits.new_objects import two_digits, with_model, with_new
+from glrt.view.edits.new_objects import two_digits, with_model, with_new_near
 from glrt.view.edits.scene_edits import found_again, with_duplicate, without_object
 from glrt.view.edits.state_differences import change_text
 from glrt.view.file_watch import Watch
@@ -131,8 +131,8 @@ class App(CameraMoves):
         self.selected, self.is_to_be_seen = index, index is not None
 
     def add(self, kind: str) -> None:
-        """Add an object of a kind at the pivot, and select it."""
-        self._add(lambda scene: with_new(scene, kind, self.pivot, SIZE * self.reach))
+        """Add an object of a kind at the pivot or on what is there, and select it."""
+        self._add(lambda scene: with_new_near(scene, kind, self.pivot, SIZE * self.reach))
 
     def add_model(self, path: Path) -> None:
         """Add the meshes of a model at the pivot, and select the first."""

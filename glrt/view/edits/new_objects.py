@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from glrt.scene.files.assets import AssetFolder
 from glrt.scene.files.path_text import text_of
@@ -20,15 +21,40 @@ from glrt.view.controls import made, replaced
 from glrt.view.edits.scene_edits import free_name, with_added
 
 LAMP = "lamp"  # kind that stands for a lamp
+Array = NDArray[np.float64]
 MATTE = Lambertian(color=(0.7, 0.7, 0.7))
 BRIGHT = Light(emission=(10.0, 10.0, 10.0))
 ADDED = (*(kind for kind, model in KINDS.items() if model.example(np.zeros(3), 1.0)), LAMP)
 
 
-def with_new(scene: Scene, kind: str, place: Vector, size: float) -> Scene:
+def with_new_near(scene: Scene, kind: str, pivot: Vector, size: float) -> Scene:
+    """Return the scene with a new object at the pivot, or outside of objects that contain it.
+
+    Objects that contain the camera, too, are rooms. On the others a new object is put on top; a
+    lamp hangs above, on the side of the camera, and faces the pivot. A plane goes to the pivot.
+    """
+    eye = np.array(scene.camera.position)
+    boxes = [box for shape in scene.visible if (box := _box_of(shape)) and _is_in(box, pivot)]
+    solids = [box for box in boxes if not _is_in(box, eye)]
+    if not solids or kind == "plane":
+        return with_new(scene, kind, pivot, size)
+    low = np.min([box[0] for box in solids], axis=0)
+    high = np.max([box[1] for box in solids], axis=0)
+    place = np.array([pivot[0], high[1] + size / 2, pivot[2]])
+    if kind != LAMP:
+        return with_new(scene, kind, _vector(place), size)
+    away = (eye - np.array(pivot)) * (1, 0, 1)
+    if (distance := float(np.linalg.norm(away))) > 0:
+        place += away / distance * float(np.linalg.norm(high - low)) / 2
+    return with_new(scene, kind, _vector(place + np.array([0.0, size, 0.0])), size, pivot)
+
+
+def with_new(
+    scene: Scene, kind: str, place: Vector, size: float, faced: Vector | None = None
+) -> Scene:
     """Return the scene with a new object and its own material, both named after the kind.
 
-    A lamp is a square that faces down. Lengths are in scene units.
+    A lamp is a square that faces down, or a place that is `faced`. Lengths are in scene units.
     """
     size = two_digits(size)
     middle = np.array([near(part, size) for part in place])
@@ -37,11 +63,43 @@ def with_new(scene: Scene, kind: str, place: Vector, size: float) -> Scene:
     fields = model.example(middle, size)
     if is_lamp:  # edges in the other order, so that it faces down
         fields["edge_u"], fields["edge_v"] = fields["edge_v"], fields["edge_u"]
+        if faced:
+            fields |= _square(middle, np.array(faced), float(np.linalg.norm(fields["edge_u"])))
     names = {thing.name for thing in scene.objects if thing.name}
     groups = [*scene.materials, *scene.light_groups]  # so that a lamp gets its own group
     parts = {"material": free_name(kind, groups), "name": free_name(kind, names)}
     shape: Shape = made(model, {**_fields(fields), **parts})
     return with_added(scene, shape, BRIGHT if is_lamp else MATTE)
+
+
+def _square(middle: Array, faced: Array, side: float) -> dict[str, Array]:
+    """Return the fields of a square quad whose normal points to a place."""
+    normal = (faced - middle) / np.linalg.norm(faced - middle)
+    across = np.cross((0.0, 1.0, 0.0), normal)
+    if np.linalg.norm(across) < 1e-6:
+        across = np.array([1.0, 0.0, 0.0])
+    edge_u = side * across / np.linalg.norm(across)
+    edge_v = np.cross(normal, edge_u)
+    return {"corner": middle - (edge_u + edge_v) / 2, "edge_u": edge_u, "edge_v": edge_v}
+
+
+def _box_of(shape: Shape) -> tuple[Array, Array] | None:
+    """Return low and high corner of the box around a shape; None if it has no end."""
+    if not math.isfinite(shape.reach):
+        return None
+    if isinstance(shape, Mesh):
+        vertices = shape.world_vertices
+        return vertices.min(axis=0), vertices.max(axis=0)
+    low, high = type(shape).bounds(np.array([shape.row], np.float64))
+    return low[0], high[0]
+
+
+def _is_in(box: tuple[Array, Array], place: Vector | Array) -> bool:
+    return bool((box[0] < np.array(place)).all() and (np.array(place) < box[1]).all())
+
+
+def _vector(place: Array) -> Vector:
+    return float(place[0]), float(place[1]), float(place[2])
 
 
 def with_model(scene: Scene, path: Path, place: Vector, size: float) -> Scene:
