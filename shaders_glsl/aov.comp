@@ -3,9 +3,12 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 #include "aov.glsl"
-#include "passes/aov_sources.glsl"
 #include "passes/tiles.glsl"
 
+layout(rgba32f) uniform readonly image2D source_mean;             // a: number of its samples
+layout(rgba32f) uniform readonly image2D source_variance;         // a: number of observations
+layout(rgba32f) uniform readonly image2D source_second_mean;
+layout(rgba32f) uniform readonly image2D source_second_variance;
 layout(rgba32f) uniform writeonly image2D target_mean;
 layout(rgba32f) uniform writeonly image2D target_variance;
 layout(rgba32f) uniform writeonly image2D target_second_mean;
@@ -18,8 +21,14 @@ void main() {
     ivec2 corner = tile_corner(picture, frame.first_tile + int(gl_WorkGroupID.x));
     ivec2 texel = corner + ivec2(gl_LocalInvocationID.xy);
     if (any(greaterThanEqual(texel, picture))) return;
-    Pixel first = load_first(texel);
-    Pixel second = load_second(texel);
+    Pixel first = empty_pixel();
+    Pixel second = empty_pixel();
+    if (frame.is_empty == 0) {
+        first = pixel_of(imageLoad(source_mean, texel), imageLoad(source_variance, texel));
+        if (SECOND_AOV != NO_AOV) {
+            second = pixel_of(imageLoad(source_second_mean, texel), imageLoad(source_second_variance, texel));
+        }
+    }
     add_aovs(first, second, frame.origin + texel);
     if ((HAS_SPHERE_TREE || HAS_TREE || HAS_MESH) && loop_was_cut) atomicAdd(lost_samples, 1u);
     imageStore(target_mean, texel, vec4(first.mean, first.count));

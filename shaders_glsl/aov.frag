@@ -1,8 +1,11 @@
 // The kernel of aov.comp for OpenGL 4.1, which has no compute shaders: see trace.frag.
 
 #include "aov.glsl"
-#include "passes/aov_sources.glsl"
 
+uniform sampler2D source_mean;             // as in aov.comp
+uniform sampler2D source_variance;
+uniform sampler2D source_second_mean;
+uniform sampler2D source_second_variance;
 layout(location = 0) out vec4 target_mean;
 layout(location = 1) out vec4 target_variance;
 layout(location = 2) out vec4 target_second_mean;
@@ -10,8 +13,14 @@ layout(location = 3) out vec4 target_second_variance;
 
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);
-    Pixel first = load_first(texel);
-    Pixel second = load_second(texel);
+    Pixel first = empty_pixel();
+    Pixel second = empty_pixel();
+    if (frame.is_empty == 0) {
+        first = pixel_of(texelFetch(source_mean, texel, 0), texelFetch(source_variance, texel, 0));
+        if (SECOND_AOV != NO_AOV) {
+            second = pixel_of(texelFetch(source_second_mean, texel, 0), texelFetch(source_second_variance, texel, 0));
+        }
+    }
     add_aovs(first, second, frame.origin + texel);
     target_mean = vec4(first.mean, first.count);
     target_variance = vec4(first.variance, first.observations);

@@ -14,7 +14,7 @@ layout(std430) buffer Splats {
 };
 layout(std430) buffer Lost { uint lost_samples; };
 
-uniform sampler2D source_mean;  // the crop, with its layers next to it
+layout(rgba32f) uniform readonly image2D source_mean;  // the crop, with its layers next to it
 
 const float MOST = 7.2057594037927936e16;  // 2^56 units
 const float HIGH = 4294967296.0;           // 2^32
@@ -33,7 +33,7 @@ void add_words(int at, float units) {
 }
 
 ivec2 crop_size() {
-    ivec2 size = textureSize(source_mean, 0);
+    ivec2 size = imageSize(source_mean);
     return ivec2(size.x / (LAYERS + 1), size.y);
 }
 

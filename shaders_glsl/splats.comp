@@ -10,8 +10,8 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "film/splat_unit.glsl"
 #include "passes/tiles.glsl"
 
-uniform sampler2D source_mean;      // a: observations
-uniform sampler2D source_variance;  // a: observations
+layout(rgba32f) uniform readonly image2D source_mean;      // a: observations
+layout(rgba32f) uniform readonly image2D source_variance;  // a: observations
 layout(rgba32f) uniform writeonly image2D target_mean;
 layout(rgba32f) uniform writeonly image2D target_variance;
 
@@ -34,7 +34,7 @@ float take_sum(int at) {
 // Adds radiance to a film at a texel.
 void add_observation(ivec2 texel, vec3 radiance) {
     Pixel pixel = empty_pixel();
-    if (frame.is_empty == 0) pixel = pixel_of(texelFetch(source_mean, texel, 0), texelFetch(source_variance, texel, 0));
+    if (frame.is_empty == 0) pixel = pixel_of(imageLoad(source_mean, texel), imageLoad(source_variance, texel));
     add_sample(pixel, radiance, 0);
     imageStore(target_mean, texel, vec4(pixel.mean, pixel.count));
     imageStore(target_variance, texel, vec4(pixel.variance, pixel.observations));

@@ -6,17 +6,28 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 #include "integrators/no_record.glsl"
 #include "trace.glsl"
-#include "passes/film_sources.glsl"
 #include "passes/tiles.glsl"
 
-uniform sampler2D source_layers;  // a: its samples
+layout(rgba32f) uniform readonly image2D source_mean;      // a: finite samples
+layout(rgba32f) uniform readonly image2D source_variance;  // a: observations
+layout(rgba32f) uniform readonly image2D source_block;     // a: its samples
 layout(rgba32f) uniform writeonly image2D target_mean;
 layout(rgba32f) uniform writeonly image2D target_variance;
 layout(rgba32f) uniform writeonly image2D target_block;
+uniform sampler2D source_layers;  // a: its samples; OpenGL promises eight images, which the others are
 layout(rgba32f) uniform writeonly image2D target_layers;
 layout(rgba32f) uniform writeonly image2D target_reservoirs;
 
 layout(std430) buffer Lost { uint lost_samples; };
+
+Pixel load_pixel(ivec2 texel) {
+    if (frame.is_empty != 0) return empty_pixel();  // the source may hold anything
+    vec4 mean = imageLoad(source_mean, texel);
+    vec4 variance = imageLoad(source_variance, texel);
+    vec4 block = vec4(0.0);
+    if (BLOCK > 1) block = imageLoad(source_block, texel);
+    return Pixel(mean.rgb, mean.a, variance.rgb, variance.a, block.rgb, block.a);
+}
 
 // Layers lie side by side: one half of the observations above, the other half below.
 ivec2 layer_place(ivec2 texel, int slice) {

@@ -3,11 +3,22 @@
 
 #include "integrators/no_record.glsl"
 #include "trace.glsl"
-#include "passes/film_sources.glsl"
 
+uniform sampler2D source_mean;      // as in trace.comp
+uniform sampler2D source_variance;
+uniform sampler2D source_block;
 layout(location = 0) out vec4 target_mean;
 layout(location = 1) out vec4 target_variance;
 layout(location = 2) out vec4 target_block;
+
+Pixel load_pixel(ivec2 texel) {
+    if (frame.is_empty != 0) return empty_pixel();
+    vec4 mean = texelFetch(source_mean, texel, 0);
+    vec4 variance = texelFetch(source_variance, texel, 0);
+    vec4 block = vec4(0.0);
+    if (BLOCK > 1) block = texelFetch(source_block, texel, 0);
+    return Pixel(mean.rgb, mean.a, variance.rgb, variance.a, block.rgb, block.a);
+}
 
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);

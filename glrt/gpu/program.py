@@ -14,7 +14,7 @@ from glrt.process.signals import postponed
 
 TILE = read_constants(read("passes/tiles.glsl"))["TILE"]  # pixels along the edge of a tile
 
-READ = "source"  # how the names of textures of a film begin that a kernel only reads
+SAMPLED = ("source_layers",)  # textures of a film that are no images of a compute shader
 Resource = moderngl.Buffer | moderngl.Texture
 Images = Mapping[str, moderngl.Texture]
 
@@ -41,9 +41,9 @@ class Pace:
 
 
 class Kernel:
-    """A compute shader: a tile is a work group, and images are written in place.
+    """A compute shader: a tile is a work group, and images are read and written in place.
 
-    Images named "source..." are textures in the shader: OpenGL 4.3 grants only 8 images.
+    OpenGL 4.3 grants only 8 images. What is SAMPLED is a texture in the shader.
     """
 
     def __init__(self, gl: moderngl.Context, source: Source) -> None:
@@ -66,10 +66,10 @@ class Kernel:
         Names that the compiler dropped need none; a missing one is a KeyError with its name.
         """
         _bind_blocks(self._program, scene)
-        read = {name: images[name] for name in images if name.startswith(READ)}
-        _bind_textures(self._program, {**scene, **read})
-        written = [name for name in images if name not in read and name in self._program]
-        for unit, name in enumerate(written):
+        sampled = {name: images[name] for name in images if name in SAMPLED}
+        _bind_textures(self._program, {**scene, **sampled})
+        used = [name for name in images if name not in sampled and name in self._program]
+        for unit, name in enumerate(used):
             self._program[name] = unit
             images[name].bind_to_image(unit)
 

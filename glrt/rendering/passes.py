@@ -2,8 +2,8 @@
 
 A pass names a kernel for each of the two pipelines, and the outputs that it adds samples to. An
 output has two textures: the kernel reads the last frame, `source_NAME`, and writes the next frame,
-`target_NAME`. OpenGL 4.3 promises eight images in a compute shader and eight outputs of a fragment
-shader, so a pass has at most eight outputs; more outputs take another pass.
+`target_NAME`. OpenGL 4.3 promises eight images, so a pass has at most four outputs; more outputs
+take another pass. The kernel of paths has a fifth, and reads its layers as a texture.
 """
 
 from collections.abc import Mapping, Sequence

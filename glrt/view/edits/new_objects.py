@@ -22,6 +22,7 @@ from glrt.view.edits.scene_edits import free_name, with_added
 
 LAMP = "lamp"  # kind that stands for a lamp
 Array = NDArray[np.float64]
+_SIDEWAYS, _NEARER = 0.7, 0.4  # of a new lamp, for each unit of height
 MATTE = Lambertian(color=(0.7, 0.7, 0.7))
 BRIGHT = Light(emission=(10.0, 10.0, 10.0))
 ADDED = (*(kind for kind, model in KINDS.items() if model.example(np.zeros(3), 1.0)), LAMP)
@@ -31,7 +32,8 @@ def with_new_near(scene: Scene, kind: str, pivot: Vector, size: float) -> Scene:
     """Return the scene with a new object at the pivot, or outside of objects that contain it.
 
     Objects that contain the camera, too, are rooms. On the others a new object is put on top; a
-    lamp hangs above, on the side of the camera, and faces the pivot. A plane goes to the pivot.
+    lamp hangs above, to the left of the camera's view, and faces the pivot. A plane goes to the
+    pivot.
     """
     eye = np.array(scene.camera.position)
     boxes = [box for shape in scene.visible if (box := _box_of(shape)) and _is_in(box, pivot)]
@@ -43,10 +45,12 @@ def with_new_near(scene: Scene, kind: str, pivot: Vector, size: float) -> Scene:
     place = np.array([pivot[0], high[1] + size / 2, pivot[2]])
     if kind != LAMP:
         return with_new(scene, kind, _vector(place), size)
-    away = (eye - np.array(pivot)) * (1, 0, 1)
-    if (distance := float(np.linalg.norm(away))) > 0:
-        place += away / distance * float(np.linalg.norm(high - low)) / 2
-    return with_new(scene, kind, _vector(place + np.array([0.0, size, 0.0])), size, pivot)
+    away = _unit((eye - np.array(pivot)) * (1, 0, 1))
+    aside = np.cross(away, (0.0, 1.0, 0.0))  # to the left, seen from the camera
+    way = _unit(np.array([0.0, 1.0, 0.0]) + _SIDEWAYS * aside + _NEARER * away)
+    reach = float(np.linalg.norm(high - low)) / 2
+    hung = (low + high) / 2 + (reach + size) * way
+    return with_new(scene, kind, _vector(hung), size, pivot)
 
 
 def with_new(
@@ -96,6 +100,11 @@ def _box_of(shape: Shape) -> tuple[Array, Array] | None:
 
 def _is_in(box: tuple[Array, Array], place: Vector | Array) -> bool:
     return bool((box[0] < np.array(place)).all() and (np.array(place) < box[1]).all())
+
+
+def _unit(way: Array) -> Array:
+    """Return the direction of a vector, or 0 for none."""
+    return way / max(float(np.linalg.norm(way)), 1e-12)
 
 
 def _vector(place: Array) -> Vector:
