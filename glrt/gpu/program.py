@@ -43,7 +43,7 @@ class Pace:
 class Kernel:
     """A compute shader: a tile is a work group, and images are read and written in place.
 
-    OpenGL 4.3 grants only 8 images. What is SAMPLED is a texture in the shader.
+    OpenGL 4.3 grants only 8 images. Names in SAMPLED are textures in the shader.
     """
 
     def __init__(self, gl: moderngl.Context, source: Source) -> None:

@@ -69,3 +69,27 @@ def wheel_and_keys_move_the_camera(hand: Hand) -> None:
     hand.ctx.key_press(imgui.Key.home.value)
     hand.settle()
     assert hand.session.scene.camera == start
+
+
+@check
+def a_drag_may_begin_next_to_the_picture(hand: Hand) -> None:
+    """A click there selects nothing."""
+    app, ctx = hand.window.app, hand.ctx
+    hand.session.edit(width=20, height=60)
+    hand.settle()
+    app.select(1)
+    ctx.yield_(2)
+    left, top, _, height = app.rectangle
+    place = (left - 20, top + height / 2)
+    start = hand.session.scene.camera
+    ctx.mouse_move_to_pos(place)
+    ctx.mouse_down(0)
+    ctx.mouse_move_to_pos((place[0] + 60, place[1] + 20))
+    ctx.mouse_up(0)
+    hand.settle()
+    assert hand.session.scene.camera != start
+    assert app.selected == 1
+    ctx.mouse_move_to_pos(place)
+    ctx.mouse_click(0)
+    ctx.yield_(2)
+    assert app.selected is None

@@ -63,8 +63,8 @@ def draw_viewport(app: App) -> None:
     if not is_held(app):  # a button below the handles would take the mouse from them
         if is_wiped:
             draw_wipe_handle(app)
-        imgui.set_cursor_screen_pos(ImVec2(*seen[:2]))
-        imgui.invisible_button("picture", ImVec2(max(seen[2], 1), max(seen[3], 1)), _EVERY_BUTTON)
+        imgui.set_cursor_screen_pos(here)  # drags may begin next to the picture, too
+        imgui.invisible_button("picture", ImVec2(max(room.x, 1), max(room.y, 1)), _EVERY_BUTTON)
         _mouse(app, here, room)
         _clicks(app)
     low = ImVec2(seen[0], seen[1] + seen[3])
@@ -209,18 +209,23 @@ def _mouse(app: App, here: ImVec2, room: ImVec2) -> None:
 
 
 def _clicks(app: App) -> None:
-    """Select by a click or ask for paths, focus by Alt and a click, and pivot by a double click."""
+    """Select by a click or ask for paths, focus by Alt and a click, and pivot by a double click.
+
+    A click next to the picture selects nothing.
+    """
     left, share = imgui.MouseButton_.left.value, _share_under_mouse(app)
     if not imgui.is_item_hovered() or imgui.is_mouse_dragging(left):
         return
+    is_over = all(0 <= part <= 1 for part in share)
     if imgui.is_mouse_double_clicked(left):
-        if picked := app.pick(*share):
+        if is_over and (picked := app.pick(*share)):
             app.turn_about(picked.point)
     elif imgui.is_mouse_released(left) and not _was_dragged():
         if app.paths.is_choosing:
-            app.ask_paths(*share)
+            if is_over:
+                app.ask_paths(*share)
             return
-        picked = app.pick(*share)
+        picked = app.pick(*share) if is_over else None
         if picked and imgui.get_io().key_alt:
             app.focus_on(picked.point)
         else:
