@@ -36,6 +36,7 @@ from glrt.view.viewport.picture_view import PictureView
 from glrt.view.viewport.silhouette import Silhouette
 from glrt.view.viewport.transform import clear_of
 
+MOST_STOPS = 8.0  # exposure values that keys reach, as the slider does
 SIZE = 0.07  # half the size of a new object, in distances from the camera to the pivot
 
 
@@ -61,6 +62,7 @@ class App(CameraMoves):
     rectangle: Rectangle = (0.0, 0.0, 1.0, 1.0)  # of the picture on the screen, in pixels
     zoom: Zoom = FIT
     inspects: bool = False  # whether the values of the pixel under the mouse are shown
+    is_picture_alone: bool = False  # whether the panels are hidden
     shows_keys: bool = False  # whether all keys are shown over the window
     paths: PathExplorer = field(init=False)
     silhouette: Silhouette = field(init=False)  # of the selected mesh
@@ -163,6 +165,16 @@ class App(CameraMoves):
     def inspect(self) -> None:
         """Show or hide the values of the pixel under the mouse."""
         self.inspects = not self.inspects
+
+    def expose(self, stops: float) -> None:
+        """Show the picture brighter, or darker below 0, within the range of the slider."""
+        exposure = self.session.settings.exposure + stops
+        if abs(exposure) <= MOST_STOPS:
+            self.session.edit(None, "exposure", exposure=exposure)
+
+    def toggle_panels(self) -> None:
+        """Hide the panels so that the picture has the whole window, or show them again."""
+        self.is_picture_alone = not self.is_picture_alone
 
     def toggle_keys(self) -> None:
         """Show or hide all keys."""

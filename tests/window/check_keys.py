@@ -170,3 +170,38 @@ def f1_shows_all_keys_over_the_window(hand: Hand) -> None:
     hand.ctx.mouse_click(0)
     hand.ctx.yield_(2)
     assert not app.shows_keys
+
+
+@check
+def keys_change_the_exposure(hand: Hand) -> None:
+    """By half a stop, no farther than the slider; several presses are one step of undo."""
+    for _ in range(3):
+        press(hand, imgui.Key.right_bracket)
+    assert hand.session.settings.exposure == 1.5
+    press(hand, imgui.Key.left_bracket)
+    assert hand.session.settings.exposure == 1.0
+    hand.session.edit(exposure=8.0)
+    press(hand, imgui.Key.right_bracket)
+    assert hand.session.settings.exposure == 8.0
+    assert hand.session.problem == ""
+
+
+@check
+def a_key_hides_the_panels_and_shows_them_again(hand: Hand) -> None:
+    """The picture has their room meanwhile."""
+
+    def size() -> tuple[float, float]:
+        window = imgui.internal.find_window_by_name("Picture")
+        assert window
+        return window.size.x, window.size.y
+
+    before = hand.there(size)
+    press(hand, imgui.Key.n)
+    hand.ctx.yield_(4)
+    alone = hand.there(size)
+    area = hand.there(lambda: imgui.get_main_viewport().size)
+    assert alone[0] > 0.95 * area.x > before[0]
+    assert alone[1] > 0.95 * area.y > before[1]
+    press(hand, imgui.Key.n)
+    hand.ctx.yield_(4)
+    assert hand.there(size) == pytest.approx(before, abs=2)

@@ -26,6 +26,9 @@ _COMMANDS: dict[Action, Callable[[App], object]] = {  # command of each action
     "inspect": lambda app: app.inspect(),
     "paths": lambda app: app.choose_paths(),
     "keys": lambda app: app.toggle_keys(),
+    "brighter": lambda app: app.expose(_STOP),
+    "darker": lambda app: app.expose(-_STOP),
+    "picture_alone": lambda app: app.toggle_panels(),
     "panel": lambda app: navigate(app, not app.navigates),
     "undo": lambda app: app.undo(),
     "redo": lambda app: app.redo(),
@@ -37,6 +40,7 @@ _COMMANDS: dict[Action, Callable[[App], object]] = {  # command of each action
     "save": lambda app: app.files.save_picture(),
     "quit": lambda app: app.files.close(app.leave),
 }
+_STOP = 0.5  # exposure values of one press of a key
 _LONGEST_STEP = 0.1  # seconds: a slow frame must not throw the camera out of the room
 _ANY_POPUP = int(imgui.PopupFlags_.any_popup)
 _MODIFIERS = {

@@ -9,6 +9,7 @@ Action = (
     Move
     | Literal["home", "frame", "pause", "undo", "redo"]
     | Literal["fit", "one_to_one", "inspect", "paths", "panel", "keys"]
+    | Literal["brighter", "darker", "picture_alone"]
     | Literal["duplicate", "delete", "open", "save_scene", "save_scene_as", "save", "quit"]
 )
 Bindings = dict[Action, tuple[str, ...]]
@@ -27,6 +28,9 @@ DEFAULTS: Bindings = {
     "one_to_one": ("1",),
     "inspect": ("i",),
     "paths": ("p",),
+    "brighter": ("right_bracket",),
+    "darker": ("left_bracket",),
+    "picture_alone": ("n",),
     "panel": ("f6",),
     "keys": ("f1",),
     "undo": ("ctrl+z",),
@@ -53,6 +57,9 @@ MEANING: dict[Action, str] = {
     "one_to_one": "zoom to 1:1",
     "inspect": "show pixel values",
     "paths": "choose a pixel for its paths",
+    "brighter": "expose half a stop more",
+    "darker": "expose half a stop less",
+    "picture_alone": "hide the panels, and show them",
     "panel": "move in the panel by keys, and back",
     "keys": "show these keys",
     "undo": "undo",
