@@ -36,6 +36,7 @@ from glrt.view.state.frame_budget import FrameBudget
 from glrt.view.state.idle_kernel import IdleKernel
 from glrt.view.state.preferences import load_preferences, preferences_file
 from glrt.view.state.session import Session
+from glrt.view.style import WindowStyle
 from glrt.view.viewport.picture import Picture
 from glrt.view.viewport.picture_view import PictureView
 
@@ -69,12 +70,7 @@ PANEL, FIGURES = 0.3, 0.22  # shares of the window's width, and of its height
 PARTS = ("Controls", "Figures", "Picture")
 MOST = 0.45  # largest share of either, for large text
 RATES = {True: 10, False: 30}  # frames a second without a GPU, and with one
-THEMES = {
-    "dark": hello_imgui.ImGuiTheme_.darcula_darker,
-    "light": hello_imgui.ImGuiTheme_.light_rounded,
-}
 GONE = "no window can be opened, though the display was there a moment ago"
-TOOLTIP_AFTER = 0.5  # seconds that the mouse rests on a row
 KEEP_EVERY = 2.0  # seconds between checks whether preferences must be written
 
 
@@ -93,7 +89,7 @@ class Window:
         self._version = window_version(pipeline)
         self._opened = (source, scene, settings)
         self._pipeline: Pipeline = pipeline
-        self._styled: tuple[str, float] | None = None
+        self._style = WindowStyle()
         self._began = self._kept = time.perf_counter()
         self._interruption = Interruption()
         self._wait, self._told = EventWait(), tuple[object, ...]()
@@ -185,7 +181,7 @@ class Window:
         for part in self.params.docking_params.dockable_windows[:2]:
             part.is_visible = not app.is_picture_alone
         self._shares.keep(PARTS)
-        self._style()
+        self._style.choose(app.preferences.theme, app.preferences.scale)
         self._native.entitle(app.files.title)
         app.advance()
         app.look(now)
@@ -218,17 +214,6 @@ class Window:
         if now - self._kept > KEEP_EVERY:
             self._kept = now
             self.app.keep_preferences()
-
-    def _style(self) -> None:
-        """Apply the preferred theme and text size if they changed."""
-        wanted = self.app.preferences.theme, self.app.preferences.scale
-        if wanted != self._styled:
-            self._styled = wanted
-            hello_imgui.apply_theme(THEMES[wanted[0]])
-            imgui.get_style().font_scale_main = wanted[1]
-            _make_opaque(imgui.Col_.popup_bg)
-            imgui.get_style().hover_delay_short = TOOLTIP_AFTER
-            imgui.get_style().frame_border_size = 1.0  # edges for light boxes on a light ground
 
     def _ask(self) -> None:
         """Draw the popups above the panels: tour, question and file dialog."""
@@ -269,12 +254,6 @@ def _part(label: str, place: str, draw: Callable[[], None]) -> hello_imgui.Docka
     part.label, part.dock_space_name, part.gui_function = label, place, draw
     part.can_be_closed = False
     return part
-
-
-def _make_opaque(part: imgui.Col_) -> None:
-    """Make a colour of the style opaque, so that a list hides the text below it."""
-    color = imgui.get_style().color_(part)
-    imgui.get_style().set_color_(part, (color.x, color.y, color.z, 1.0))
 
 
 def _opengl(version: int) -> hello_imgui.OpenGlOptions:

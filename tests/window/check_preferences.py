@@ -93,3 +93,22 @@ def the_frame_rate_is_what_is_preferred(hand: Hand) -> None:
         hand.there(partial(app.prefer, replaced(app.preferences, frame_rate=wanted)))
         hand.ctx.yield_(2)
         assert app.pace.frames_per_second == expected
+
+
+@check
+def the_scale_enlarges_margins_as_it_does_type(hand: Hand) -> None:
+    """And back at 1 all sizes are those of the start."""
+    app = hand.window.app
+
+    def sizes() -> tuple[float, ...]:
+        style = imgui.get_style()
+        return style.frame_padding.x, style.item_spacing.y, style.scrollbar_size
+
+    start = hand.there(sizes)
+    for scale in (2.0, 1.3, 2.0):
+        app.prefer(replaced(app.preferences, scale=scale))
+        hand.ctx.yield_(3)
+    assert hand.there(sizes) == tuple(2 * size for size in start)
+    app.prefer(replaced(app.preferences, scale=1.0))
+    hand.ctx.yield_(3)
+    assert hand.there(sizes) == start

@@ -1,0 +1,48 @@
+"""Colours and sizes of the window: its theme, and its scale."""
+
+from imgui_bundle import ImVec2, hello_imgui, imgui
+
+THEMES = {
+    "dark": hello_imgui.ImGuiTheme_.darcula_darker,
+    "light": hello_imgui.ImGuiTheme_.light_rounded,
+}
+TOOLTIP_AFTER = 0.5  # seconds that the mouse rests on a row
+
+
+class WindowStyle:
+    """The style of Dear ImGui, as the user has chosen it."""
+
+    def __init__(self) -> None:
+        """Nothing is chosen yet."""
+        self._chosen: tuple[str, float] | None = None
+        self._sizes: dict[str, float | ImVec2] = {}  # before any theme
+
+    def choose(self, theme: str, scale: float) -> None:
+        """Apply a theme; the scale enlarges type, margins and widgets together."""
+        if (theme, scale) == self._chosen:
+            return
+        self._chosen = theme, scale
+        style = imgui.get_style()
+        self._sizes = self._sizes or _sizes_of(style)
+        for name, size in self._sizes.items():
+            setattr(style, name, size)
+        hello_imgui.apply_theme(THEMES[theme])
+        _make_opaque(style, imgui.Col_.popup_bg)
+        style.hover_delay_short = TOOLTIP_AFTER
+        style.frame_border_size = 1.0  # edges for light boxes on a light ground
+        style.scale_all_sizes(scale)
+        style.font_scale_main = scale
+
+
+def _sizes_of(style: imgui.Style) -> dict[str, float | ImVec2]:
+    """Return a copy of all lengths of the style, and of its other numbers, by name."""
+    values = {name: getattr(style, name) for name in dir(style) if not name.startswith("_")}
+    lengths = {name: ImVec2(v.x, v.y) for name, v in values.items() if isinstance(v, ImVec2)}
+    numbers = {name: value for name, value in values.items() if isinstance(value, float)}
+    return {**lengths, **numbers}
+
+
+def _make_opaque(style: imgui.Style, part: imgui.Col_) -> None:
+    """Make a colour of the style opaque, so that a list hides the text below it."""
+    color = style.color_(part)
+    style.set_color_(part, (color.x, color.y, color.z, 1.0))
