@@ -137,6 +137,8 @@ class Files:
         self.source, self.watch = source, watch_for(source)
         self.model = scene_file_of(source) if source else None
         self.scene_path = source if self.watch else unused("scene.toml")
+        self.picture_name = str(_folder_of(source) / PICTURE_NAME)
+        self.picture_path = unused(self.picture_name)
         self._mark_saved()
         self._remember(source)
 
@@ -270,6 +272,13 @@ class Files:
             self.messages.ask("Replace it?", f"{_where(Path(path))} is there already.", replace=act)
         else:
             act()
+
+
+def _folder_of(source: str) -> Path:
+    """Return the folder of what is open, in which its recipe finds its files; else "."."""
+    file = Path(source)
+    is_usable = bool(source) and file.is_file() and os.access(file.parent, os.W_OK)
+    return file.parent if is_usable else Path()
 
 
 def _where(file: Path) -> str:

@@ -10,6 +10,7 @@ from imgui_bundle import ImVec2, imgui
 
 from glrt.core.resources import folder
 from glrt.image.sources import load
+from glrt.scene.scenefile.catalog import find
 from glrt.settings import Settings
 from glrt.view.files import Files
 from glrt.view.messages import SHOWN, Messages
@@ -167,6 +168,23 @@ def test_a_file_that_is_there_is_not_what_a_window_saves_to_by_default(
         Path(name).touch()
     opened = files(tmp_path)
     assert (opened.scene_path, opened.picture_path) == ("scene-2.toml", "picture-3.png")
+
+
+def test_pictures_are_saved_next_to_what_is_open(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """There their recipes find the files of the scene. Elsewhere it is the working folder."""
+    away = tmp_path / "away"
+    away.mkdir()
+    monkeypatch.chdir(away)
+    text = Path(find("cornell")).read_text()
+    (tmp_path / "room.toml").write_text(text)
+    (tmp_path / "picture.png").touch()
+    assert files(tmp_path, f"{tmp_path}/room.toml").picture_path == f"{tmp_path}/picture-2.png"
+    assert files(tmp_path, "../room.toml").picture_path == "../picture-2.png"
+    assert files(tmp_path, "cornell").picture_path == "picture.png"
+    (away / "here.toml").write_text(text)
+    assert files(tmp_path, "here.toml").picture_path == "picture.png"
 
 
 def test_a_scene_is_saved_to_the_file_that_it_came_from_and_to_no_other(
