@@ -21,12 +21,12 @@ def the_tour_has_five_steps_and_is_closed_for_ever(hand: Hand) -> None:
     hand.there(lambda: app.prefer(replaced(app.preferences, tour=True)))
     app.tour_step = 0
     ctx.yield_(3)
-    place = ctx.item_info("//###tour/next").rect_full.min
+    place = ctx.item_info("//###tour/###next").rect_full.min
     for step in range(1, 5):
-        ctx.item_click("//###tour/next")
+        ctx.item_click("//###tour/###next")
         ctx.yield_(2)
         assert app.tour_step == step
-        here = ctx.item_info("//###tour/next").rect_full.min
+        here = ctx.item_info("//###tour/###next").rect_full.min
         assert (here.x, here.y) == (place.x, place.y), "clicks in one place go to the end"
     ctx.item_click("//###tour/back")
     ctx.yield_(2)
@@ -36,6 +36,19 @@ def the_tour_has_five_steps_and_is_closed_for_ever(hand: Hand) -> None:
     assert not app.preferences.tour
     assert not shown(hand)
     hand.until(lambda: '"tour": false' in app.preferences_file.read_text())
+
+
+@check
+def the_last_step_of_the_tour_ends_it(hand: Hand) -> None:
+    """It does not come back at the next start."""
+    app, ctx = hand.window.app, hand.ctx
+    hand.there(lambda: app.prefer(replaced(app.preferences, tour=True)))
+    app.tour_step = len(STEPS) - 1
+    ctx.yield_(3)
+    ctx.item_click("//###tour/###next")
+    ctx.yield_(2)
+    assert app.tour_step is None
+    assert not app.preferences.tour
 
 
 @check

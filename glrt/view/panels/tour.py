@@ -85,8 +85,11 @@ def _tallest(width: float) -> float:
 
 
 def _answers(app: App, step: int) -> None:
-    if button("next", step + 1 < len(STEPS)):
-        app.tour_step = step + 1
+    is_last = step + 1 == len(STEPS)
+    if button("finish###next" if is_last else "next###next"):
+        app.tour_step = None if is_last else step + 1
+        if is_last:
+            app.prefer(replaced(app.preferences, tour=False))
     imgui.same_line()
     if button("back", step > 0):
         app.tour_step = step - 1
