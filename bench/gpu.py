@@ -185,18 +185,25 @@ def _print(parsed: argparse.Namespace) -> int:
     files.make_folder(parsed.folder, "gpu.md", "gpu.json")
     much = {**(QUICK if parsed.quick else FULL), **_given(parsed, "size", "samples")}
     routes, notes = ([("auto", 0)], []) if parsed.auto or parsed.quick else _routes()
-    rows = []
-    for row in measure(list(ways(routes, parsed.scenes, **much)), parsed.patience):
-        print(f"{_name(row.work)}: {row.verdict}", file=sys.stderr)
-        rows.append(row)
+    rows: list[Row] = []
+    try:
+        for row in measure(list(ways(routes, parsed.scenes, **much)), parsed.patience):
+            print(f"{_name(row.work)}: {row.verdict}", file=sys.stderr)
+            rows.append(row)
+    finally:  # after Ctrl-C and SIGTERM, too: the time on a machine may be short
+        _report(parsed.folder, rows, notes, much)
+    return int(not all(row.is_right for row in rows))
+
+
+def _report(folder: Path, rows: Sequence[Row], notes: Sequence[str], much: dict[str, Any]) -> None:
+    """Print and write the table and the figures of the rows so far."""
     renderers = sorted({str(row.found["renderer"]) for row in rows if "renderer" in row.found})
     work = "{size} x {size} pixels, {samples} samples".format(**much)
     lines = [f"{machine(*renderers)}, {work}", "", *notes, *table(rows), "", summary(rows)]
     print("\n".join(lines))
     figures = {"machine": machine(*renderers), "rows": [_plain(row) for row in rows]}
-    files.write_text(parsed.folder / "gpu.md", "\n".join(lines) + "\n")
-    files.write_text(parsed.folder / "gpu.json", json.dumps(figures, indent=1) + "\n")
-    return int(not all(row.is_right for row in rows))
+    files.write_text(folder / "gpu.md", "\n".join(lines) + "\n")
+    files.write_text(folder / "gpu.json", json.dumps(figures, indent=1) + "\n")
 
 
 def _given(parsed: argparse.Namespace, *names: str) -> dict[str, Any]:

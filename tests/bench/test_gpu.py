@@ -2,6 +2,7 @@
 
 import json
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -120,6 +121,24 @@ def test_a_picture_is_rendered_again_until_the_time_is_spent(context: Context) -
     assert len(taken) >= 2
     assert renderer.samples == 2
     renderer.release()
+
+
+def test_an_interrupted_run_reports_what_it_has(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The time on a machine with a GPU may be short."""
+
+    def interrupted(*_: Any) -> Iterator[Row]:
+        yield Row(work(), {"error": "it hangs"})
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("bench.gpu.measure", interrupted)
+    assert main(["--auto", "-o", str(tmp_path)]) == 130
+    printed = capsys.readouterr()
+    assert "it hangs" in printed.out
+    assert printed.err.endswith("interrupted\n")
+    assert "it hangs" in (tmp_path / "gpu.md").read_text()
+    assert len(json.loads((tmp_path / "gpu.json").read_text())["rows"]) == 1
 
 
 @pytest.mark.slow
