@@ -34,6 +34,7 @@ ENTRIES |= {"surfaces.comp", "surfaces.frag", "edges.frag", "reproject.frag", "f
     *("evidence.frag", "taa.frag", "ataa_mask.frag", "ataa.frag", "gather.comp", "more.comp"),
     *(f"probe_{name}.comp" for name in ("rays", "light", "distances", "place")),
     *("probe_balls.vert", "probe_balls.frag"),
+    *("silhouette.vert", "silhouette.frag", "silhouette_line.frag"),
     *("bring_models.frag", "reconstruct.frag", "predict.frag", "predictions.frag"),
 }
 NOT_OF_A_PATH = {

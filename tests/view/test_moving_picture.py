@@ -253,6 +253,7 @@ def test_another_seed_is_taken_at_once(moving: Session) -> None:
     assert moving.renderer.settings.seed not in (0, 7)  # while edits come in a row
 
 
+@pytest.mark.slow_cases("roulette", "sampler", "method")  # each compiles another kernel
 @pytest.mark.parametrize("name", ["bounces", "roulette", "sampler", "method"])
 def test_light_that_other_settings_transport_is_no_history(moving: Session, name: str) -> None:
     """It would be in the picture until END samples; a moved camera brings history again."""

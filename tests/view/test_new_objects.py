@@ -40,6 +40,7 @@ def test_a_lamp_hangs_above_the_object_to_the_left_and_faces_it() -> None:
     assert abs(np.dot(lamp.edge_u, lamp.edge_v)) < 1e-5
 
 
+@pytest.mark.slow
 def test_a_lamp_above_a_model_makes_it_brighter() -> None:
     """Inside, where it hung before, it changed nothing."""
     vertices, faces = icosphere(2)
