@@ -14,23 +14,29 @@ from tests.window.hand import Hand, check
 LOOKED_AT = 20  # samples: more than one set of probes lights
 
 
+def until_lit(hand: Hand) -> None:
+    """Let the window take in all edits, and light several sets of probes."""
+    session = hand.session
+    hand.until(lambda: not session.is_behind and session.samples >= LOOKED_AT)
+
+
 @check
 def probes_light_the_picture_of_the_method_ddgi(hand: Hand) -> None:
     session = hand.session
     hand.ctx.set_ref("Controls")
     move(hand, "method/ddgi", None)
-    hand.until(lambda: session.samples >= LOOKED_AT)
+    until_lit(hand)
     assert session.settings.method == "ddgi"
     assert session.layering == "none"
     assert not session.problem
     assert hand.pixels()[..., :3].mean() > 20
     move(hand, "probes", 2)
-    hand.until(lambda: session.samples >= LOOKED_AT)
+    until_lit(hand)
     assert session.settings.probes == 2
     assert session.last_cost is Cost.RESTART
     assert not session.problem
     move(hand, "method/gather", None)
-    hand.until(lambda: session.samples >= LOOKED_AT)
+    until_lit(hand)
     assert (session.settings.method, session.settings.probes) == ("gather", 2)
     assert not session.problem
     assert hand.pixels()[..., :3].mean() > 20
@@ -41,14 +47,14 @@ def points_are_reused_as_the_panel_says(hand: Hand) -> None:
     """A crop, whose samples would lack those around, is refused, and changes nothing."""
     session = hand.session
     hand.there(lambda: session.edit(method="resampled", probes=2))
-    hand.until(lambda: session.samples >= LOOKED_AT)
+    until_lit(hand)
     hand.ctx.set_ref("Controls")
     move(hand, "reuse/both", None)
-    hand.until(lambda: session.samples >= LOOKED_AT)
+    until_lit(hand)
     assert (session.settings.reuse, session.settings.unbiased) == ("both", True)
     assert session.last_cost is Cost.RECOMPILE
     move(hand, "unbiased", None)
-    hand.until(lambda: session.samples >= LOOKED_AT)
+    until_lit(hand)
     assert not session.settings.unbiased
     assert not session.problem
     assert hand.pixels()[..., :3].mean() > 20
@@ -63,10 +69,10 @@ def a_lamp_over_probes_restarts_the_picture(hand: Hand) -> None:
     """Their light is that of all lamps in one: it is not kept by layers."""
     session = hand.session
     hand.there(lambda: session.edit(method="ddgi", probes=2))
-    hand.until(lambda: session.samples >= LOOKED_AT)
+    until_lit(hand)
     before = hand.pixels()[..., :3].mean()
     hand.there(lambda: session.edit(with_lights(session.scene, {"lamp": 0.2})))
-    hand.until(lambda: session.samples >= LOOKED_AT)
+    until_lit(hand)
     assert session.last_cost is Cost.RESTART
     assert hand.pixels()[..., :3].mean() < before
 
@@ -75,7 +81,7 @@ def a_lamp_over_probes_restarts_the_picture(hand: Hand) -> None:
 def what_does_not_go_with_probes_is_refused_by_name(hand: Hand) -> None:
     session = hand.session
     hand.there(lambda: session.edit(method="ddgi", probes=2))
-    hand.until(lambda: session.samples > 0)
+    until_lit(hand)
     hand.there(lambda: session.edit(sampler="independent"))
     hand.until(lambda: bool(session.problem))
     assert "a method with probes" in str(session.problem).lower()
@@ -95,7 +101,7 @@ def probes_are_live_while_edits_follow_one_another(hand: Hand) -> None:
     """They lag behind a lamp; the picture is not saved; then they rest."""
     session = hand.session
     hand.there(lambda: session.edit(method="ddgi", probes=2))
-    hand.until(lambda: session.samples >= LOOKED_AT)
+    until_lit(hand)
     assert session.lag == 0.0
     refusals: list[str] = []
 
@@ -107,7 +113,7 @@ def probes_are_live_while_edits_follow_one_another(hand: Hand) -> None:
     hand.there(lambda: session.edit(with_lights(session.scene, {"lamp": 0.2})))
     hand.until(lags)
     assert "live" in refusals[0]
-    hand.until(lambda: session.samples >= LOOKED_AT)
+    until_lit(hand)
     assert session.lag == 0.0
     assert hand.there(session.image).samples >= LOOKED_AT
 
@@ -139,7 +145,7 @@ def a_method_that_mixes_the_light_of_lamps_is_named_as_the_reason(hand: Hand) ->
     texts: list[str] = []
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(imgui, "text_disabled", texts.append)
-        hand.session.edit(method="ddgi")
-        hand.settle()
+        hand.there(lambda: hand.session.edit(method="ddgi"))
+        until_lit(hand)
         assert any("Probes hold the light of all lamps" in text for text in texts)
         assert not any("A smaller picture has room" in text for text in texts)
