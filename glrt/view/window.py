@@ -24,7 +24,7 @@ from glrt.view.file_watch import Watch
 from glrt.view.messages import Messages
 from glrt.view.opengl import INSTEAD, window_version, wrap_window
 from glrt.view.panels.confirmations import draw_question
-from glrt.view.panels.key_overlay import draw_key_overlay
+from glrt.view.panels.key_table import draw_key_overlay
 from glrt.view.panels.layout import Shares
 from glrt.view.panels.panel import draw_panel
 from glrt.view.panels.plots import draw_figures

@@ -48,7 +48,7 @@ def test_rooms_are_all_but_tight(context: Context, walls: Any) -> None:
     """A point in the very edge of two walls may round past one: some 3 in 100 million segments;
     on NVIDIA's driver, 2 in 10 million."""
     leaked, segments = leaked_pixels(context, walls("glow", 1.1), 2, 1.1)
-    assert leaked <= 3e-7 * segments
+    assert leaked <= (1e-7 if context.is_software else 3e-7) * segments
 
 
 @pytest.mark.slow

@@ -28,14 +28,15 @@ def fresnel64(cos_i: Array, eta: Array | float) -> Array:
 
 @pytest.mark.parametrize("ior", IORS)
 def test_reflectance_at_normal_incidence_and_at_brewsters_angle(
-    call_glsl: CallGlsl, ior: float
+    call_glsl: CallGlsl, context: Context, ior: float
 ) -> None:
     brewster = 1 / np.sqrt(1 + ior * ior)  # its cosine
     polarised = ((ior * ior - 1) / (ior * ior + 1)) ** 2
     at = call_glsl("fresnel(c, eta)", c=np.array([1.0, brewster, 0.0]), eta=np.array([1 / ior]))
     assert at[0] == pytest.approx(((ior - 1) / (ior + 1)) ** 2, rel=1e-5, abs=1e-13)
     assert at[1] == pytest.approx(polarised / 2, rel=1e-5, abs=1e-13)
-    assert at[2] == pytest.approx(1, abs=ULP)  # a quotient of equal numbers, on NVIDIA
+    off = 0 if context.is_software else ULP  # of a quotient of equal numbers
+    assert abs(at[2] - 1) <= off
 
 
 def test_reflectance_has_the_published_values(call_glsl: CallGlsl) -> None:
@@ -124,10 +125,10 @@ def test_refraction_obeys_snell_and_reflection_is_its_mirror_image(
     assert np.abs(r - mirrored)[fresnel64(cosines, eta) > 1e-6].max() < 1e-6
 
 
-def test_without_an_interface_light_goes_straight_on(call_glsl: CallGlsl) -> None:
+def test_without_an_interface_light_goes_straight_on(call_glsl: CallGlsl, context: Context) -> None:
     n = directions(1000)
     wo = wo_at(np.linspace(0.001, 1, len(n)))
-    least = np.array([1e-9])  # reflectance is below: 0, unless the driver's roots are inexact
+    least = np.array([0.0 if context.is_software else 1e-9])  # with inexact roots some is reflected
     args = {"n": n, "wo": wo, "eta": np.array([1.0]), "u": least}
     assert np.abs(through_glass(call_glsl, "local", "vec3", **args) + wo).max() < 1e-6
     assert np.all(through_glass(call_glsl, "next.crosses", "bool", **args))

@@ -7,12 +7,14 @@ midpoint rule is exact to 1e-6 for these smooth functions, single precision to a
 import numpy as np
 import pytest
 
+from glrt.gpu.context import Context
 from tests.conftest import CallGlsl
 from tests.support.numerics import ULP, corners, directions, length, unit_square
 
-ROUND = (
-    4 * ULP
-)  # of the length of a direction: NVIDIA's sine and cosine are off by up to 12 x 2^-24
+
+def most_off(context: Context) -> float:
+    """Largest error of a length by sine and cosine: NVIDIA's are off by up to 12 x 2^-24."""
+    return (2 if context.is_software else 4) * ULP
 
 
 def test_a_normalized_vector_has_length_one_at_every_scale(call_glsl: CallGlsl) -> None:
@@ -35,7 +37,7 @@ def test_the_disk_is_filled_evenly(call_glsl: CallGlsl) -> None:
     assert length(call_glsl("sample_disk(u)", "vec2", u=corners())).max() <= 1 + ULP
 
 
-def test_the_hemisphere_is_filled_by_the_cosine(call_glsl: CallGlsl) -> None:
+def test_the_hemisphere_is_filled_by_the_cosine(call_glsl: CallGlsl, context: Context) -> None:
     wi = call_glsl("sample_cosine_hemisphere(u)", "vec3", u=unit_square()).astype(np.float64)
     x, y, z = wi.T
     assert z.mean() == pytest.approx(2 / 3, abs=1e-5)  # G33; the root at the rim costs digits
@@ -43,7 +45,7 @@ def test_the_hemisphere_is_filled_by_the_cosine(call_glsl: CallGlsl) -> None:
     assert (z**4).mean() == pytest.approx(1 / 3, abs=2e-6)
     assert np.abs([x.mean(), y.mean(), (x * y).mean()]).max() < 2e-6
     assert (x**2).mean() == pytest.approx(1 / 4, abs=2e-6)
-    assert np.abs(length(wi) - 1).max() < ROUND
+    assert np.abs(length(wi) - 1).max() < most_off(context)
 
 
 def test_no_direction_of_the_hemisphere_lies_in_the_surface(call_glsl: CallGlsl) -> None:
@@ -53,7 +55,9 @@ def test_no_direction_of_the_hemisphere_lies_in_the_surface(call_glsl: CallGlsl)
 
 
 @pytest.mark.parametrize("one_minus_cos", [1e-12, 1e-6, 1e-3, 0.1, 1.0])
-def test_a_cone_is_filled_evenly_by_solid_angle(call_glsl: CallGlsl, one_minus_cos: float) -> None:
+def test_a_cone_is_filled_evenly_by_solid_angle(
+    call_glsl: CallGlsl, context: Context, one_minus_cos: float
+) -> None:
     w = call_glsl(
         "sample_cone(omc, u)", "vec3", u=unit_square(), omc=np.array([one_minus_cos])
     ).astype(np.float64)
@@ -65,7 +69,7 @@ def test_a_cone_is_filled_evenly_by_solid_angle(call_glsl: CallGlsl, one_minus_c
     assert drop.max() <= one_minus_cos * (1 + 1e-5)
     assert (w[:, 0] * w[:, 1]).mean() == pytest.approx(0, abs=2e-6 * one_minus_cos)
     assert np.abs(w[:, :2].mean(axis=0)).max() < 2e-6 * np.sqrt(one_minus_cos)
-    assert np.abs(length(w) - 1).max() < ROUND
+    assert np.abs(length(w) - 1).max() < most_off(context)
 
 
 def test_a_cone_keeps_its_digits_however_narrow(call_glsl: CallGlsl) -> None:
@@ -99,7 +103,7 @@ def test_a_local_vector_comes_back_from_the_world(call_glsl: CallGlsl) -> None:
     assert np.array_equal(call_glsl("frame_around(n) * up", "vec3", n=n, up=up), n)
 
 
-def test_products_are_summed_in_one_order(call_glsl: CallGlsl) -> None:
+def test_products_are_summed_in_one_order(call_glsl: CallGlsl, context: Context) -> None:
     """Every driver must use that order: the `dot` and `length` of Mesa 22 and Mesa 25 differ."""
     rng = np.random.default_rng(11)
     a, b = rng.normal(size=(2, 20_000, 3)).astype(np.float32)
@@ -110,4 +114,6 @@ def test_products_are_summed_in_one_order(call_glsl: CallGlsl) -> None:
     assert (call_glsl("dot(a, b)", a=a, b=b) == expected).all()
     squares = a * a
     sums = squares[:, 0] + (squares[:, 1] + squares[:, 2])
-    assert (call_glsl("length(a)", a=a) == call_glsl("sqrt(a)", a=sums)).all()
+    found = call_glsl("length(a)", a=a)
+    assert (found == call_glsl("sqrt(a)", a=sums)).all()
+    assert (found == np.sqrt(sums)).all() or not context.is_software

@@ -180,6 +180,9 @@ def denoise_law(render: Render) -> None:
     assert image.denoised().error >= 0
     assert np.isfinite(image.denoised().radiance).all()
     assert np.array_equal(image.shown, image.denoised().radiance)
+    assert image.recipe
+    if image.recipe.settings.method != OPTIONS[Way.CLASSIC][1]:  # which has next to no noise
+        assert not np.array_equal(image.shown, image.radiance)
 
 
 def auto_law(render: Render) -> None:

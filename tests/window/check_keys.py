@@ -4,7 +4,7 @@ import pytest
 from imgui_bundle import imgui
 
 from glrt.view.controls import replaced
-from glrt.view.panels.key_overlay import NAME
+from glrt.view.panels.key_table import NAME
 from glrt.view.state.keys import MEANING
 from glrt.view.state.preferences import Preferences
 from tests.window.gestures import drag, press
@@ -146,7 +146,7 @@ def f1_shows_all_keys_over_the_window(hand: Hand) -> None:
         return imgui.internal.find_window_by_name(NAME)
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("glrt.view.panels.key_overlay._table", lambda _, rows: shown.update(rows))
+        patch.setattr("glrt.view.panels.key_table._table", lambda _, rows: shown.update(rows))
         press(hand, imgui.Key.f1)
     assert app.shows_keys
     assert shown["F9"] == MEANING["home"]

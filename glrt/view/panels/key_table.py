@@ -1,6 +1,6 @@
-"""Section of the panel that shows and changes the keys."""
+"""Keys: the section of the panel that shows and changes them, and all of them over the window."""
 
-from imgui_bundle import hello_imgui, imgui
+from imgui_bundle import ImVec2, hello_imgui, imgui
 
 from glrt.core.errors import GlrtError
 from glrt.view.app import App
@@ -9,7 +9,10 @@ from glrt.view.state import keys
 from glrt.view.state.keys import Action
 from glrt.view.widgets.fields import beside, button, tip
 
-MOUSE = {  # in the picture
+NAME = "Keys###keys over the window"
+_SHARE = 0.92  # of the window: the largest size of that box
+_APART = 2.0  # em: between its columns
+_MOUSE = {  # in the picture
     "left drag": "turn about the pivot; in fly mode: look around",
     "right drag": "look around; in fly mode: turn about the pivot",
     "middle drag": "shift",
@@ -27,7 +30,7 @@ def draw_key_table(app: App) -> None:
 
     After a click on a key, the next key that is pressed replaces it.
     """
-    for gesture, meaning in MOUSE.items():
+    for gesture, meaning in _MOUSE.items():
         imgui.text(gesture)
         imgui.same_line(hello_imgui.em_size(7))
         imgui.text_wrapped(meaning)
@@ -110,3 +113,70 @@ def _bind(app: App, action: Action, chords: tuple[str, ...]) -> None:
         app.prefer(replaced(app.preferences, bindings=bindings))
     except GlrtError as error:
         app.messages.complain(str(error).removeprefix("bindings: "))
+
+
+def draw_key_overlay(app: App) -> None:
+    """Draw the table of keys, as the user has chosen them, if it is open."""
+    if not app.shows_keys:
+        return
+    area = imgui.get_main_viewport()
+    middle = area.pos + ImVec2(area.size.x / 2, area.size.y / 2)
+    imgui.set_next_window_pos(middle, imgui.Cond_.always.value, ImVec2(0.5, 0.5))
+    largest = ImVec2(_SHARE * area.size.x, _SHARE * area.size.y)
+    imgui.set_next_window_size_constraints(ImVec2(0, 0), largest)
+    imgui.set_next_window_bg_alpha(1.0)
+    imgui.push_style_var(imgui.StyleVar_.window_border_size, 1.0)
+    flags = imgui.WindowFlags_.always_auto_resize | imgui.WindowFlags_.no_docking
+    flags |= imgui.WindowFlags_.no_saved_settings | imgui.WindowFlags_.no_title_bar
+    is_shown, _ = imgui.begin(NAME, None, int(flags))
+    if is_shown:
+        _tables(app)
+        is_clicked = imgui.is_mouse_clicked(0) and not imgui.is_window_appearing()
+        app.shows_keys = not is_clicked or imgui.is_window_hovered()
+    imgui.end()
+    imgui.pop_style_var()
+
+
+def _tables(app: App) -> None:
+    """Draw keys on the left, the mouse and commands on the right; all in one column if narrow."""
+    bound = app.preferences.bindings.items()
+    rows = [
+        (" or ".join(map(keys.label, chords)), keys.MEANING[action])
+        for action, chords in bound
+        if chords
+    ]
+    single = [row for row in rows if "Ctrl+" not in row[0]]
+    commands = [row for row in rows if "Ctrl+" in row[0]]
+    mouse = [(gesture, told.partition(";")[0]) for gesture, told in _MOUSE.items()]
+    room = _SHARE * imgui.get_main_viewport().size.x
+    right = max(_width(mouse), _width(commands))
+    wide = _width(single) + right + hello_imgui.em_size(_APART)
+    imgui.begin_group()
+    imgui.text_disabled("keys; Escape closes this")
+    _table("keys", single)
+    imgui.end_group()
+    if wide < room:
+        imgui.same_line(0.0, hello_imgui.em_size(_APART))
+    imgui.begin_group()
+    imgui.text_disabled("in the picture")
+    _table("mouse", mouse)
+    imgui.text_disabled("commands")
+    _table("commands", commands)
+    imgui.end_group()
+
+
+def _width(rows: list[tuple[str, str]]) -> float:
+    """Return the width of a table, in pixels."""
+    parts = (max((imgui.calc_text_size(row[k]).x for row in rows), default=0.0) for k in (0, 1))
+    return sum(parts) + hello_imgui.em_size(1)
+
+
+def _table(name: str, rows: list[tuple[str, str]]) -> None:
+    flags = imgui.TableFlags_.sizing_fixed_fit | imgui.TableFlags_.no_host_extend_x
+    if imgui.begin_table(name, 2, int(flags)):
+        for key, meaning in rows:
+            imgui.table_next_column()
+            imgui.text_unformatted(key)
+            imgui.table_next_column()
+            imgui.text_unformatted(meaning)
+        imgui.end_table()
