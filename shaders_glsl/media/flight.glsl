@@ -108,7 +108,7 @@ vec3 light_left(Ray ray, float distance, int lamp, int medium) {
         bool arrives = hit.shape == (is_shared ? lamp : NO_SHAPE);
         if (medium != NO_MEDIUM) depth += hit.distance * medium_at(medium).extinction;
         if (arrives) return vec3(decay(depth.x), decay(depth.y), decay(depth.z));
-        if (hit.shape == NO_SHAPE) return vec3(0.0);
+        if (!HAS_HOLE || hit.shape == NO_SHAPE) return vec3(0.0);
         Surface surface = surface_at(ray, hit);
         if (!is_hole(material_of(ray, surface), passed)) return vec3(0.0);
         if (limit < FAR) limit -= hit.distance;

@@ -59,7 +59,11 @@ PROBES = {
     "HAS_TRANSMISSION_MAP": ("textures/mapped.glsl", "found.crossed *=", "found.crossed *= {} *"),
     "HAS_HOLE": ("textures/holes.glsl", ">= material.coverage", ">= {} * material.coverage"),
     "HAS_PANE": ("bsdfs/pane.glsl", "2.0 * face /", "{} * face /"),
-    "HAS_ATTENUATION": ("integrators/glasses.glsl", "absorption * distance", "{} * absorption"),
+    "HAS_ATTENUATION": (
+        "integrators/meeting.glsl",
+        "path.absorption, distance",
+        "{} * path.absorption, distance",
+    ),
     "HAS_NESTED": (
         "integrators/glasses.glsl",
         "return glass_at(glass).ior",
