@@ -18,14 +18,16 @@ Method = Literal[
 Sampler = Literal["sobol", "sobol64", "independent"]
 Caustics = Literal["off", "on"]
 ToneMap = Literal["none", "aces", "agx", "neutral"]
-Aov = Literal["albedo", "normal", "depth", "position", "object", "bounces"]
+Term = Literal["emission", "direct", "indirect", "diffuse", "glossy", "transmission", "volume"]
+Aov = Literal["albedo", "normal", "depth", "position", "object", "bounces", Term]
 Denoise = Literal["none", "oidn", "nlm", "auto"]
 Reuse = Literal["none", "temporal", "spatial", "both"]
 
 MAX_SAMPLES = 1 << 20  # a float32 running mean is good up to here
 BLOCKS = {"sobol": 16, "sobol64": 64, "independent": 1}  # samples in an observation, by sampler
 GUIDES: tuple[Aov, ...] = ("albedo", "normal")  # AOVs that guide a denoiser
-OF_PATHS: tuple[Aov, ...] = ("bounces",)  # AOVs of whole paths, not of first surfaces
+TERMS: tuple[Term, ...] = get_args(Term)  # AOVs that are parts of the picture's light
+OF_PATHS: tuple[Aov, ...] = ("bounces", *TERMS)  # AOVs of whole paths, not of first surfaces
 
 
 class Cost(StrEnum):
@@ -157,7 +159,8 @@ class Settings(RenderSettings):
         (),
         description="extra channels (AOVs) of EXR files; of the first surface behind a pixel: "
         f"{', '.join(aov for aov in get_args(Aov) if aov not in OF_PATHS)}; of its paths: "
-        f"{', '.join(OF_PATHS)}",
+        f"{', '.join(aov for aov in OF_PATHS if aov not in TERMS)}; terms of light: "
+        f"{', '.join(TERMS)}",
     )
     denoise: Annotated[Denoise, Editable(Cost.FREE)] = Field(
         "none",
@@ -181,6 +184,11 @@ class Settings(RenderSettings):
         """AOVs that a render gathers: the requested ones, and the guides of a denoiser."""
         wanted = self.aov + (GUIDES if self.denoise != "none" else ())
         return tuple(aov for aov in get_args(Aov) if aov in wanted)
+
+    @property
+    def terms(self) -> tuple[Term, ...]:
+        """Terms of light among the AOVs."""
+        return tuple(term for term in TERMS if term in self.aov)
 
     @field_validator("probes")
     @classmethod

@@ -9,6 +9,7 @@ from glrt.cli.options import AUTO, is_automatic
 from glrt.cli.request import Order
 from glrt.gpu.context import open_context
 from glrt.image.sources import recipe_of
+from glrt.plan.combinations import Way, ways_of
 from glrt.rendering.pipelines import resolve
 
 if TYPE_CHECKING:
@@ -42,7 +43,8 @@ def _is_open(arguments: argparse.Namespace, wanted: Order) -> bool:
     is_asked = getattr(arguments, "caustics", AUTO) == AUTO and not is_automatic(arguments)
     is_new = wanted.begun is None and recipe_of(arguments.scene) is None
     is_short = arguments.time is not None and arguments.time < SHORT
-    return is_asked and is_new and not is_short and arguments.pipeline != "fragment"
+    fits = arguments.pipeline != "fragment" and Way.TERMS not in ways_of(wanted.settings)
+    return is_asked and is_new and not is_short and fits
 
 
 def _finding(

@@ -1,9 +1,11 @@
-"""AOVs (arbitrary output variables) of a picture: properties of first surfaces, and of paths.
+"""AOVs (arbitrary output variables) of a picture: of first surfaces, of paths, and terms of light.
 
 A sample that meets nothing counts with albedo and normal 0, but not for depth and position. Where
 no sample meets anything, depth is infinite and position 0. `bounces` is how often the paths scatter
-before they end. In an EXR file an AOV is a layer of its name; its standard error and its counts
-have channels of their own.
+before they end. Terms are parts of the radiance.
+
+In an EXR file an AOV is a layer of its name; its standard error and its counts have channels of
+their own.
 """
 
 from collections.abc import Mapping
@@ -13,7 +15,7 @@ from typing import Any, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from glrt.settings import Aov
+from glrt.settings import TERMS, Aov
 
 CHANNELS: dict[Aov, str] = {
     "albedo": "RGB",
@@ -22,6 +24,7 @@ CHANNELS: dict[Aov, str] = {
     "position": "XYZ",
     "object": "I",
     "bounces": "N",
+    **dict.fromkeys(TERMS, "RGB"),
 }
 
 if list(CHANNELS) != list(get_args(Aov)):

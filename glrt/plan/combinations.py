@@ -18,7 +18,7 @@ from glrt.plan.plan import Layering
 from glrt.scene.shapes.kinds import SAMPLED, Shape
 from glrt.scene.shapes.plane import Plane
 from glrt.scene.summary import few
-from glrt.settings import Settings
+from glrt.settings import TERMS, Settings
 
 
 class Way(StrEnum):
@@ -29,6 +29,7 @@ class Way(StrEnum):
     PART = "a part of a render"
     MERGED = "a merged picture"
     AOV = "AOVs"
+    TERMS = "terms of light"
     LAYERS = "light by layers"
     FRAGMENT = "the fragment pipeline"
     INDEPENDENT = "the independent sampler"
@@ -49,6 +50,7 @@ MEANINGS: dict[Way, str] = {
     Way.PART: "`--part`: a range of the samples",
     Way.MERGED: "a picture of `glrt merge`, rendered again",
     Way.AOV: "`--aov`: albedo, normal, depth, position, object, bounces",
+    Way.TERMS: f"`--aov`: {', '.join(TERMS)}",
     Way.LAYERS: "a picture relit in the window, and the window's film",
     Way.FRAGMENT: "`--pipeline fragment`, for OpenGL 4.1",
     Way.INDEPENDENT: "`--sampler independent`",
@@ -70,37 +72,40 @@ _WORKS: dict[Way, tuple[Way, ...]] = {
     Way.PART: (Way.CROP, Way.RESUME),
     Way.MERGED: (Way.CROP, Way.PART),
     Way.AOV: (Way.CROP, Way.RESUME, Way.PART, Way.MERGED),
+    Way.TERMS: (Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV),
     Way.LAYERS: (Way.CROP, Way.AOV),
-    Way.FRAGMENT: (Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV),
+    Way.FRAGMENT: (Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.TERMS),
     Way.INDEPENDENT: (
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.FRAGMENT),
+        Way.TERMS,
     ),
     Way.CLASSIC: (
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.FRAGMENT),
-        Way.INDEPENDENT,
+        *(Way.TERMS, Way.INDEPENDENT),
     ),
-    Way.PROBES: (Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV),
+    Way.PROBES: (Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.TERMS),
     Way.REUSE: (Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.PROBES),
     Way.PARTICLES: (
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.INDEPENDENT),
     ),
     Way.PILOT: (
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.FRAGMENT),
-        *(Way.INDEPENDENT, Way.CLASSIC, Way.PROBES, Way.REUSE),
+        *(Way.TERMS, Way.INDEPENDENT, Way.CLASSIC, Way.PROBES, Way.REUSE),
     ),
     Way.DENOISE: (
         *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
-        *(Way.CLASSIC, Way.PROBES, Way.REUSE, Way.PARTICLES, Way.PILOT),
+        *(Way.CLASSIC, Way.PROBES, Way.REUSE, Way.PARTICLES, Way.PILOT, Way.TERMS),
     ),
-    Way.AUTO: (Way.CROP, Way.AOV, Way.FRAGMENT, Way.INDEPENDENT, Way.PILOT),
+    Way.AUTO: (Way.CROP, Way.AOV, Way.TERMS, Way.FRAGMENT, Way.INDEPENDENT, Way.PILOT),
     Way.TIME: (
         *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
         *(Way.CLASSIC, Way.PROBES, Way.REUSE, Way.PARTICLES, Way.PILOT, Way.DENOISE, Way.AUTO),
+        Way.TERMS,
     ),
     Way.ERROR: (
         *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
         *(Way.CLASSIC, Way.PROBES, Way.REUSE, Way.PARTICLES, Way.PILOT, Way.DENOISE, Way.AUTO),
-        Way.TIME,
+        *(Way.TERMS, Way.TIME),
     ),
 }
 
@@ -111,6 +116,10 @@ _REFUSED: dict[frozenset[Way], str] = {
     frozenset({Way.LAYERS, Way.PART}): "a part holds the sum alone: save the scene and render that",
     frozenset({Way.LAYERS, Way.MERGED}): "a part holds the sum alone",
     frozenset({Way.LAYERS, Way.FRAGMENT}): "a fragment shader writes to too few textures for them",
+    frozenset({Way.TERMS, Way.LAYERS}): "its terms were traced before the lamps changed: save "
+    "the scene and render that",
+    frozenset({Way.TERMS, Way.REUSE}): "a reused point is lit by direct and indirect light at once",
+    frozenset({Way.TERMS, Way.PARTICLES}): "particles add their light to the picture alone",
     frozenset({Way.PARTICLES, Way.FRAGMENT}): "a fragment shader adds to its own pixel alone",
     frozenset({Way.PROBES, Way.LAYERS}): "probes hold the light of all lamps in one",
     frozenset({Way.PROBES, Way.FRAGMENT}): "compute shaders fill the probes",
@@ -181,6 +190,11 @@ def check_render(
             f"Method {settings.method} does not go with media ({few(facts.media.names)}): its "
             "probes hold the light of surfaces alone. Use the method mis, nee or naive."
         )
+    if settings.method == "resampled" and settings.terms:
+        raise UsageError(
+            "Method resampled does not sort its light into terms: one point stands for direct and "
+            "indirect light. Use the method gather, or leave the terms out of --aov."
+        )
     if reason := refusal(facts, settings):
         raise UsageError(f"--caustics on does not fit here: {reason}. Leave it out.")
 
@@ -190,7 +204,8 @@ def ways_of(settings: Settings, layering: Layering = "none") -> set[Way]:
     found = {
         Way.CROP: settings.crop is not None,
         Way.AOV: bool(settings.aov),
-        Way.LAYERS: layering != "none",
+        Way.TERMS: bool(settings.terms),
+        Way.LAYERS: layering != "none" and not settings.terms,  # a plan with terms is not relit
         Way.INDEPENDENT: settings.sampler == "independent",
         Way.CLASSIC: METHODS[settings.method].model != 0,
         Way.PROBES: METHODS[settings.method].has_probes,

@@ -272,6 +272,7 @@ class Needs:
         lamps = {f"HAS_{kind.upper()}_LIGHT": kind in self.lamps for kind in SAMPLED}
         values = {name.upper(): getattr(self, name) for name in ROWS if name not in SETS}
         counts = {"LAMP_KINDS": len(self.lamps), "COUNT_RAYS": False, "COUNT_BOUNCES": False}
+        counts |= {"LIGHT_TERMS": 0}
         every = {**kinds, **types, **lamps, **values, **NO_LAYERS, **NO_TREE, **counts}
         return {**every, **PLAIN_PROBES}
 

@@ -88,9 +88,14 @@ class Plan:
         }
 
     def relit(self, scene: Scene, settings: Settings, layering: Layering) -> "Plan | None":
-        """Return this plan with weights that show the change; None if it must be traced again."""
+        """Return this plan with weights that show the change; None if it must be traced again.
+
+        Weights do not reach terms of light: with these, each change of light is traced.
+        """
         weights = _weights(self, scene, settings) if layering == self.layering else None
-        return replace(self, weights=weights) if weights else None
+        if weights is None or (settings.terms and not are_trivial(weights)):
+            return None
+        return replace(self, weights=weights)
 
     def cost_of(self, scene: Scene, settings: Settings, layering: Layering) -> Cost:
         """Return the cost of a change to this scene, these settings and this layering."""
@@ -123,12 +128,12 @@ def prepare(
     """Plan what to trace.
 
     With layers by light group, groups that are off are traced at intensity 1, so that a lamp that
-    is turned on needs no new samples.
+    is turned on needs no new samples. This does not hold with terms of light.
     """
     facts, intensities = SceneFacts(scene, apart), scene.light_groups
     plan = Plan(facts, settings, layering, first_sample=first_sample)
     dark = [group for group in facts.emissions if intensities[group] == 0]
-    if layering != "groups" or not dark:
+    if layering != "groups" or not dark or settings.terms:
         return plan
     lit = scene.model_copy(update={"lights": {**scene.lights, **dict.fromkeys(dark, 1.0)}})
     plan = replace(plan, facts=SceneFacts(lit, apart))

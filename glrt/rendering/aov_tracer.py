@@ -1,13 +1,13 @@
-"""Gather AOVs on the driver while the picture grows: first surfaces, and bounces of paths.
+"""Gather AOVs on the driver while the picture grows: of first surfaces, and of whole paths.
 
 A dispatch adds whole observations (blocks of samples). A picture that ends inside an observation
 therefore has AOVs of at least all its samples.
 """
 
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import ExitStack
-from typing import Any
+from typing import Any, NamedTuple
 
 import moderngl
 import numpy as np
@@ -15,7 +15,7 @@ import numpy as np
 from glrt.core.errors import SceneError
 from glrt.gpu.context import Context
 from glrt.gpu.driver_checks import usable_rounds
-from glrt.gpu.program import tile_count
+from glrt.gpu.program import Resource, tile_count
 from glrt.gpu.programs import AnyKernel
 from glrt.image.aovs import AovImage, AovImages
 from glrt.packing.shapes import order_of_kernel
@@ -23,7 +23,7 @@ from glrt.plan.plan import Plan
 from glrt.rendering.device_scene import DeviceScene
 from glrt.rendering.kernel_switch import ready
 from glrt.rendering.pass_film import Array, PassFilm
-from glrt.rendering.passes import SLOTS, aov_pass
+from glrt.rendering.passes import SLOTS, Resolved, aov_pass
 from glrt.rendering.schedule import (
     DispatchPolicy,
     DispatchRange,
@@ -33,11 +33,42 @@ from glrt.rendering.schedule import (
     rounds_of_search,
 )
 from glrt.scene.scene import Scene
-from glrt.settings import OF_PATHS, Aov, Settings
+from glrt.settings import OF_PATHS, TERMS, Aov, Settings
+
+
+class Subject(NamedTuple):
+    """A scene on the driver that AOVs are gathered of."""
+
+    plan: Plan
+    scene: DeviceScene
+    own: Mapping[str, Resource]  # of probes
+
+
+class AovMean(NamedTuple):
+    """The texture of an AOV's mean: one of some parts that lie side by side in it."""
+
+    texture: moderngl.Texture
+    part: int
+    parts: int
+
+
+class _Place(NamedTuple):
+    """Where a film holds an AOV."""
+
+    film: PassFilm
+    prefix: str  # of the names of its outputs
+    part: int
+    parts: int  # side by side in an output
+
+    def rows(self, name: str, first: int, end: int) -> Array:
+        """Rows of an output, (rows, width, 4)."""
+        rows = self.film.read_output(f"{self.prefix}{name}", first, end)
+        width = rows.shape[1] // self.parts
+        return rows[:, self.part * width : (self.part + 1) * width]
 
 
 class _Stage:
-    """One pass that gathers one or two AOVs: its kernel, its film and its dispatch schedule."""
+    """One pass that gathers some AOVs: its kernel, its film and its dispatch schedule."""
 
     def __init__(
         self,
@@ -52,7 +83,9 @@ class _Stage:
         self.schedule = Schedule(self._tiles, _most_observations(context, plan, aovs))
         what = f"{' and '.join(aovs)} of {size[0]} x {size[1]} pixels"
         with ExitStack() as refused:
-            self.film = PassFilm(context.gl, what, dict.fromkeys(render_pass.outputs, size))
+            parts = len(aovs) if aovs[0] in TERMS else 1
+            sizes = dict.fromkeys(render_pass.outputs, (parts * size[0], size[1]))
+            self.film = PassFilm(context.gl, what, sizes)
             refused.callback(self.film.release)
 
             def dispatch(kernel: AnyKernel, part: DispatchRange) -> None:
@@ -65,16 +98,23 @@ class _Stage:
         self.film.release()
         self._context.programs.give_back(self.kernel)
 
-    def work_on(
-        self, context: Context, plan: Plan, scene: DeviceScene, missing: int, seconds: float
-    ) -> None:
+    def places(self) -> Iterator[tuple[Aov, _Place]]:
+        """Yield each AOV of this pass, and where it is held."""
+        for number, aov in enumerate(self.aovs):
+            if aov in TERMS:
+                yield aov, _Place(self.film, "", number, len(self.aovs))
+            else:
+                yield aov, _Place(self.film, SLOTS[number], 0, 1)
+
+    def work_on(self, subject: Subject, missing: int, seconds: float) -> None:
         """Run one dispatch of about `seconds` towards the `missing` observations."""
+        plan, scene, own = subject
         block = plan.settings.block
         planned = self.schedule.next_dispatch(missing, seconds, self.film.samples // block)
         part = planned._replace(samples=block * planned.samples)
         start = time.perf_counter()
-        scene.dispatch(self.kernel, self.film, plan, part, self._tiles)
-        context.finish()
+        scene.dispatch(self.kernel, self.film, plan, part, self._tiles, own)
+        self._context.finish()
         if scene.lost_any() and planned.samples > 1:
             self.schedule.limit(planned.samples // 2)
         elif self.schedule.record(planned, time.perf_counter() - start):
@@ -96,8 +136,8 @@ class AovTracer:
         start = time.perf_counter()
         with ExitStack() as refused:
             refused.callback(self.release)
-            for pair in _together(aovs):
-                self._stages.append(_Stage(context, plan, scene, pair))
+            for together in _together(aovs, scene.pipeline):
+                self._stages.append(_Stage(context, plan, scene, together))
             refused.pop_all()
         self.compile_seconds = time.perf_counter() - start if aovs else 0.0
 
@@ -127,20 +167,22 @@ class AovTracer:
         return any(stage.film.samples < samples for stage in self._stages)
 
     def work_on(
-        self, plan: Plan, scene: DeviceScene, samples: int, policy: DispatchPolicy, seconds: float
+        self, subject: Subject, samples: int, policy: DispatchPolicy, seconds: float
     ) -> None:
         """Run one dispatch of about `seconds` towards `samples` per pixel, if any are missing."""
         for stage in self._stages:
             missing = -(-(samples - stage.film.samples) // self._block)
             if missing > 0:
                 planned = min(seconds, policy.limit / 2)
-                return stage.work_on(self._context, plan, scene, missing, planned)
+                return stage.work_on(subject, missing, planned)
         return None
 
-    def mean(self, aov: Aov) -> moderngl.Texture | None:
-        """Texture of an AOV's mean in kernel numbers and coordinates; None without samples."""
-        film, prefix = self._holding(aov)
-        return film.sources[f"{prefix}mean"] if film else None
+    def mean(self, aov: Aov) -> AovMean | None:
+        """An AOV's mean in kernel numbers and coordinates; None without samples."""
+        place = self._place_of(aov)
+        if place is None:
+            return None
+        return AovMean(place.film.sources[f"{place.prefix}mean"], place.part, place.parts)
 
     def pixel(self, aov: Aov, x: int, y: int) -> Array | None:
         """The mean of an AOV in one pixel and its standard error, (2, 3).
@@ -148,26 +190,25 @@ class AovTracer:
         Pixel (0, 0) is upper left. Object numbers and coordinates are the kernel's. None if the AOV
         has no samples there.
         """
-        film, prefix = self._holding(aov)
-        if film is None:
+        place = self._place_of(aov)
+        if place is None:
             return None
-        names = f"{prefix}mean", f"{prefix}variance"
-        mean, variance = (film.read_output(name, y, y + 1)[0, x] for name in names)
+        mean, variance = (place.rows(name, y, y + 1)[0, x] for name in ("mean", "variance"))
         return np.stack([mean[:3], _standard_error(variance)]) if mean[3] else None
 
-    def _holding(self, aov: Aov) -> tuple[PassFilm | None, str]:
-        """The film that holds an AOV and the prefix of its outputs; None without samples."""
+    def _place_of(self, aov: Aov) -> _Place | None:
+        """Where an AOV is held; None without samples."""
         for stage in self._stages:
             if aov in stage.aovs and stage.film.samples:
-                return stage.film, SLOTS[stage.aovs.index(aov)]
-        return None, ""
+                return dict(stage.places())[aov]
+        return None
 
     def read(self, scene: Scene) -> AovImages:
         """Read all AOVs back; `scene` must be the plan's scene."""
         found = {
-            aov: _image(aov, stage.film, prefix, scene)
+            aov: _image(aov, place, scene)
             for stage in self._stages
-            for aov, prefix in zip(stage.aovs, SLOTS, strict=False)
+            for aov, place in stage.places()
         }
         return {aov: found[aov] for aov in self.aovs}
 
@@ -177,11 +218,19 @@ class AovTracer:
             stage.release()
 
 
-def _together(aovs: tuple[Aov, ...]) -> Iterator[tuple[Aov, ...]]:
-    """Yield the AOVs of each pass: surface AOVs in pairs, each AOV of whole paths alone."""
+def _together(aovs: tuple[Aov, ...], pipeline: Resolved) -> Iterator[tuple[Aov, ...]]:
+    """Yield the AOVs of each pass: surface AOVs in pairs, bounces alone, terms of light together.
+
+    A fragment shader writes to its own pixel alone, so it gathers one term in each pass.
+    """
     of_surfaces = tuple(aov for aov in aovs if aov not in OF_PATHS)
     yield from (of_surfaces[first : first + 2] for first in range(0, len(of_surfaces), 2))
-    yield from ((aov,) for aov in aovs if aov in OF_PATHS)
+    yield from ((aov,) for aov in aovs if aov in OF_PATHS and aov not in TERMS)
+    terms = tuple(aov for aov in aovs if aov in TERMS)
+    if pipeline == "fragment":
+        yield from ((term,) for term in terms)
+    elif terms:
+        yield terms
 
 
 def _most_observations(context: Context, plan: Plan, aovs: tuple[Aov, ...]) -> int:
@@ -212,10 +261,10 @@ def _rounds_of_paths(plan: Plan) -> tuple[int, int]:
     return iterations_per_sample(plan) + more, iterations_per_sample(plan, 0) + more
 
 
-def _image(aov: Aov, film: PassFilm, prefix: str, scene: Scene) -> AovImage:
+def _image(aov: Aov, place: _Place, scene: Scene) -> AovImage:
     """Read one AOV back, with object numbers and positions converted to the scene's."""
-    height = film.sources["mean"].height
-    mean, variance = (film.read_output(f"{prefix}{n}", 0, height) for n in ("mean", "variance"))
+    height = place.film.sources["mean"].height
+    mean, variance = (place.rows(name, 0, height) for name in ("mean", "variance"))
     if aov == "object":
         numbers = np.array([0, *(1 + index for index in order_of_kernel(scene))], np.uint32)
         return AovImage(numbers[mean[..., 0].astype(np.int64)])

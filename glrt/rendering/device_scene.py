@@ -23,7 +23,7 @@ from glrt.packing.texel_texture import TexelTexture
 from glrt.packing.texture_maps import images_of, textures_of
 from glrt.plan.facts import SceneFacts
 from glrt.plan.plan import Plan
-from glrt.rendering.passes import RenderPass
+from glrt.rendering.passes import RenderPass, Resolved
 from glrt.rendering.pipelines import (
     ENVIRONMENT,
     SHAPES,
@@ -105,6 +105,11 @@ class DeviceScene:
             self.release()
             raise
         self.seconds = {"build": built - start, "pack": time.perf_counter() - built}
+
+    @property
+    def pipeline(self) -> Resolved:
+        """The pipeline of its kernels."""
+        return self._options.pipeline
 
     @property
     def keeps_reservoirs(self) -> bool:

@@ -11,7 +11,7 @@ from typing import Literal, NamedTuple
 
 from glrt.gpu.glsl import read
 from glrt.gpu.structs import read_constants
-from glrt.settings import OF_PATHS, Aov
+from glrt.settings import OF_PATHS, TERMS, Aov
 
 Resolved = Literal["compute", "fragment"]
 Constants = Mapping[str, bool | int]
@@ -51,6 +51,10 @@ SURFACES = RenderPass(
     ("position", "normal"),
 )
 MORE = RenderPass({"compute": ("more.comp",)}, ("more",), {"BLOCK": 1, "LAYERS": 0, **NO_REUSE})
+TERM_SHADERS: Mapping[Resolved, tuple[str, ...]] = {
+    "compute": ("terms.comp",),
+    "fragment": ("trace.vert", "terms.frag"),
+}
 SLOTS = ("", "second_")  # prefixes of the outputs of the AOVs that a pass fills
 
 
@@ -60,7 +64,13 @@ def aov_number(aov: Aov) -> int:
 
 
 def aov_pass(aovs: Sequence[Aov]) -> RenderPass:
-    """The pass that gathers one or two AOVs of surfaces together, or one of whole paths."""
+    """The pass that gathers one or two AOVs of surfaces, terms of light, or bounces.
+
+    Terms lie side by side in its outputs, in the order of `TERMS`.
+    """
+    if kept := [TERMS.index(aov) for aov in aovs if aov in TERMS]:
+        constants = {"LIGHT_TERMS": sum(1 << term for term in kept), "LAYERS": 0, **NO_REUSE}
+        return RenderPass(TERM_SHADERS, ("mean", "variance"), constants)
     if aovs[0] in OF_PATHS:
         return BOUNCES
     numbers = [*map(aov_number, aovs), AOV_NUMBERS["NO_AOV"]]

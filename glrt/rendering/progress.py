@@ -1,8 +1,7 @@
 """Read-only properties of a render: samples, kernels, seconds."""
 
-import moderngl
-
 from glrt.gpu.glsl import Source
+from glrt.rendering.aov_tracer import AovMean
 from glrt.rendering.device_scene import DeviceScene
 from glrt.rendering.film import Film
 from glrt.rendering.particle_tracer import Losses
@@ -69,8 +68,8 @@ class Progress:
         compiled = self._tracer.switch.compile_seconds + self._tracer.aovs.compile_seconds
         return {**self._tracer.device_scene.seconds, "compile": compiled}
 
-    def aov_mean(self, aov: Aov) -> moderngl.Texture | None:
-        """The texture of an AOV's mean so far; None if it is not gathered or has no samples."""
+    def aov_mean(self, aov: Aov) -> AovMean | None:
+        """An AOV's mean so far; None if it is not gathered or has no samples."""
         return self._tracer.aovs.mean(aov)
 
     def aov_pixel(self, aov: Aov, x: int, y: int) -> Array | None:

@@ -14,7 +14,7 @@ from glrt.image.aovs import AovImages
 from glrt.image.film_state import FilmState
 from glrt.image.particle_film import ParticleFilm
 from glrt.plan.plan import Plan, Weights
-from glrt.rendering.aov_tracer import AovTracer
+from glrt.rendering.aov_tracer import AovTracer, Subject
 from glrt.rendering.device_scene import DeviceScene
 from glrt.rendering.film import Extent, Film
 from glrt.rendering.kernel_switch import KernelSwitch
@@ -209,7 +209,8 @@ class Tracer:
             self.probes.work_on(self.film.next_sample)
             wanted = self.probes.together(self.film.next_sample, target - self.film.samples)
             self._at_once(min(self.film.at_once(self.most_samples), wanted))
-        self._catch_up_particles()
+            if self.probes.tracer or self.particles:
+                self.catch_up()  # AOVs see the probes of the picture
 
     def work_on(self, remaining: int, policy: DispatchPolicy, seconds: float) -> None:
         """Run one dispatch: of particles or AOVs that lag behind, of probes, or of the picture."""
@@ -262,7 +263,8 @@ class Tracer:
         if self.particles and self._lacks_particles:
             self.particles.work_on(policy, seconds)
         else:
-            self.aovs.work_on(self._plan, self.device_scene, self.film.samples, policy, seconds)
+            subject = Subject(self._plan, self.device_scene, self.probes.resources)
+            self.aovs.work_on(subject, self.film.samples, policy, seconds)
 
     def _compiled(self) -> KernelSwitch:
         rounds = iterations_per_sample(self._plan)

@@ -40,3 +40,10 @@ Scattering sample_material(Vertex vertex, inout Sampler rng) {
     if ((HAS_MIRROR || HAS_ROUGH_METAL) && material.kind == METAL) return sample_metal(vertex, u);
     return sample_matte(vertex, u);
 }
+
+// The share of a matte base in light that is scattered from wi.
+vec3 base_share(Vertex vertex, vec3 wi) {
+    if (vertex.material.kind == MATTE) return vec3(1.0);
+    if (HAS_PRINCIPLED && vertex.material.kind == PRINCIPLED) return base_share_of_principled(vertex, wi);
+    return vec3(0.0);
+}

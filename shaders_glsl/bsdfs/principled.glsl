@@ -147,6 +147,20 @@ float pdf_principled(Vertex vertex, vec3 wi) {
     return principled_lobe(it, vertex, wi, h).pdf;
 }
 
+// The share of the base in light that is scattered from wi; 0 where none is.
+vec3 base_share_of_principled(Vertex vertex, vec3 wi) {
+    Principled it = principled_of(vertex.material);
+    vec3 h = normalized(vertex.wo + wi);
+    vec3 whole = principled_lobe(it, vertex, wi, h).value;
+    it.base = vec3(0.0);
+    vec3 base = whole - principled_lobe(it, vertex, wi, h).value;
+    vec3 share = vec3(0.0);
+    for (int i = 0; i < 3; i += 1) {
+        if (whole[i] > 0.0) share[i] = base[i] / whole[i];
+    }
+    return share;
+}
+
 Scattering sample_principled(Vertex vertex, float choice, vec2 u) {
     Principled it = principled_of(vertex.material);
     Gloss gloss = it.gloss;

@@ -35,6 +35,7 @@ struct Path {
     Flight flight;
     Approach approach;
     vec3 layers[MOST_LAYERS];  // the radiance by layers
+    Terms terms;               // and by terms
 };
 
 Path start_path(Ray ray) {
@@ -45,7 +46,7 @@ Path start_path(Ray ray) {
     Flight flight = start_flight(HAS_MEDIA ? frame.camera_medium : NO_MEDIUM);
     Asking asking = Asking(!FINAL_GATHER || FROM_PROBES, false);
     return Path(ray, vec3(1.0), 1.0, vec3(0.0), 0.0, 0.0, 0, absorption, counts, passed, rivals, asking, flight,
-                no_approach(), NO_LAYERS);
+                no_approach(), NO_LAYERS, no_terms());
 }
 
 // Adds light of a lamp that is `length` scattering events from the camera; `group` is its layer. A path of a probe
@@ -55,4 +56,20 @@ void gather(inout Path path, vec3 light, int group, int length) {
     if (FROM_PROBES && length == 0) return;
     path.radiance += light;
     if (LAYERS > 0) add_to_layer(path.layers, light, BY_LENGTH ? length : group);
+    if (LIGHT_TERMS != 0) sort_light(path.terms, light, length);
+}
+
+// Sorts light that this vertex scatters from wi into terms, where it is the first vertex. `pdf` 0: by a delta.
+void sort_by_surface(inout Path path, Vertex vertex, vec3 wi, float pdf, bool crosses) {
+    if (LIGHT_TERMS == 0 || path.depth > 0) return;
+    bool is_mirrored = pdf == 0.0 && vertex.material.kind != MATTE;
+    path.terms.base = is_mirrored ? vec3(0.0) : base_share(vertex, wi);
+    path.terms.rest = crosses ? TRANSMISSION : GLOSSY;
+}
+
+// The same for light that a medium scatters.
+void sort_by_medium(inout Path path) {
+    if (LIGHT_TERMS == 0 || path.depth > 0) return;
+    path.terms.base = vec3(0.0);
+    path.terms.rest = VOLUME;
 }

@@ -34,12 +34,14 @@ int add_samples(inout Pixel pixel, inout Layers layers, ivec2 place) {
         end_resampling(path, place, index);
         add_sample(pixel, value_of(path), index);
         if (LAYERS > 0) add_layers(layers, path, index);
+        if (LIGHT_TERMS != 0) add_terms(path, index);
         index += 1;
         rng = sampler_at(place, index, frame.seed);
         path = camera_path(place, rng);
         start_resampling(rng);
     }
     drop_samples(pixel, index, end);
+    if (LIGHT_TERMS != 0) drop_from_terms(index, end);
     return end - index;
 }
 

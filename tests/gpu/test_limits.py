@@ -13,11 +13,12 @@ import pytest
 from glrt.rendering import passes
 from glrt.rendering.passes import RenderPass, Resolved, aov_pass
 from glrt.rendering.pipelines import sources
+from glrt.settings import TERMS
 from tests.support.builders import FEATURE_SETS
 from tests.support.kernel_text import written_for_everything
 
 PASSES = {name: each for name, each in vars(passes).items() if isinstance(each, RenderPass)}
-PASSES |= {"AOVS": aov_pass(("albedo", "normal"))}
+PASSES |= {"AOVS": aov_pass(("albedo", "normal")), "TERMS": aov_pass(TERMS)}
 DECLARED = {
     "images": r"^ *(?:layout\(\w+\) )?uniform [^;{(]*\b[iu]?image2D\b",
     "textures": r"^ *uniform [^;{(]*\b[iu]?sampler\w+",

@@ -38,6 +38,7 @@ def test_every_shader_file_is_compiled_by_a_test() -> None:
         *("trace.glsl", "aov.glsl", "shapes/all_shapes.glsl", "integrators/first_hit.glsl"),
         *("integrators/aov_numbers.glsl", "passes/color_scale.glsl"),
         *("aov.comp", "aov.frag", "aov_view.frag", "first_surface.frag", "magnify.frag"),
+        *("terms.comp", "terms.frag", "film/term_pixels.glsl"),
         *("particles.comp", "splats.comp", "integrators/particles.glsl", "film/splat_unit.glsl"),
         *("integrators/particle_start.glsl", "integrators/camera_links.glsl"),
         *("trace.comp", "paths.comp", "structs/path_records.glsl"),

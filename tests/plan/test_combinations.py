@@ -62,7 +62,7 @@ REFUSED = [pair for pair in pairs() if not works(*pair)]
     "reuse of points---denoise",
     "reuse of points---error",
 )
-@pytest.mark.slow_cases("*--caustics*", "a merged picture-*")
+@pytest.mark.slow_cases("*--caustics*", "a merged picture-*", "*terms of light*")
 @pytest.mark.parametrize(
     ("one", "other"),
     [

@@ -26,6 +26,8 @@ ENTRIES = {
     "display.vert",
     "aov.comp",
     "aov.frag",
+    "terms.comp",
+    "terms.frag",
     "particles.comp",
     "splats.comp",
     "paths.comp",

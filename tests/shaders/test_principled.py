@@ -211,3 +211,21 @@ def test_tables_are_the_integral_of_facets(alpha: float, cosine: float) -> None:
     for table, part in ((shares.head_on, 1 - edge), (shares.grazing, edge)):
         found = at(table, np.array([cosine]))[0]
         assert found == pytest.approx(float((value * part) @ even), abs=1e-3)
+
+
+@pytest.mark.slow
+def test_the_share_of_the_base_is_what_color_adds(call_glsl: CallGlsl) -> None:
+    """The facets of a dielectric do not depend on the colour: black leaves them alone."""
+    wo, wi = upper(200, 1), upper(200, 2)
+    for look in (PLASTIC, DULL):
+        black = look._replace(color=(0.0, 0.0, 0.0))
+        whole, facets = (
+            call_glsl(
+                "eval_principled(vertex, wi)", "vec3", setup=SETUP, wo=wo, wi=wi, **each.given
+            )
+            for each in (look, black)
+        )
+        found = call_glsl("base_share(vertex, wi)", "vec3", setup=SETUP, wo=wo, wi=wi, **look.given)
+        assert_allclose(found, (whole - facets) / whole, atol=1e-5)
+        assert found.min() < 0.6
+        assert found.max() > 0.9

@@ -22,6 +22,7 @@ ASKED = 1.0  # an error that 64 samples reach
 OPTIONS: dict[Way, Options] = {
     Way.CROP: ["--crop", *map(str, CROP)],
     Way.AOV: ["--aov", "albedo,depth,object"],
+    Way.TERMS: ["--aov", "emission,direct,indirect"],
     Way.FRAGMENT: ["--pipeline", "fragment"],
     Way.INDEPENDENT: ["--sampler", "independent"],
     Way.CLASSIC: ["--method", "phong"],
@@ -121,11 +122,20 @@ def crop_law(render: Render) -> None:
 
 def aov_law(render: Render) -> None:
     """They change no bit of the picture, and are those of the plain render."""
-    without, image = render([]), render(OPTIONS[Way.AOV])
-    assert same(image, without)
+    image = render(OPTIONS[Way.AOV])
+    assert same(image, render([]))
     assert [*image.aovs] == ["albedo", "depth", "object"]
     assert image.aovs["albedo"].value.shape == image.radiance.shape
     assert image.aovs["object"].value.max() > 0
+
+
+def terms_law(render: Render) -> None:
+    """They change no bit of the picture, and add up to it where its last block is whole."""
+    image = render(OPTIONS[Way.TERMS])
+    assert same(image, render([]))
+    values = [aov.value for aov in image.aovs.values()]
+    if image.samples % 16 == 0:
+        np.testing.assert_allclose(sum(values), image.radiance, rtol=1e-5, atol=1e-6)
 
 
 def fragment_law(render: Render) -> None:
@@ -135,12 +145,15 @@ def fragment_law(render: Render) -> None:
     assert same(image, render([]))
 
 
-def independent_law(render: Render) -> None:
-    """Another sampler, another noise, the same light."""
-    many = ["--samples", "512"]
-    one, other = render(many), render([*many, *OPTIONS[Way.INDEPENDENT]])
-    assert not same(one, other)
-    assert_agree(one, other, within=0.4)
+def noise_law(way: Way, samples: int) -> Callable[[Render], None]:
+    def law(render: Render) -> None:
+        """Another noise, the same light."""
+        many = ["--samples", str(samples)]
+        one, other = render(many), render([*many, *OPTIONS[way]])
+        assert not same(one, other)
+        assert_agree(one, other, within=0.4)
+
+    return law
 
 
 def method_law(way: Way) -> Callable[[Render], None]:
@@ -153,14 +166,6 @@ def method_law(way: Way) -> Callable[[Render], None]:
         assert np.isfinite(image.radiance).all()
 
     return law
-
-
-def particles_law(render: Render) -> None:
-    """Another noise, the same light."""
-    many = ["--samples", "2048"]
-    one, other = render(many), render([*many, *OPTIONS[Way.PARTICLES]])
-    assert not same(one, other)
-    assert_agree(one, other, within=0.4)
 
 
 def pilot_law(render: Render) -> None:
@@ -208,10 +213,11 @@ ALONE: dict[Way, Callable[[Options], None]] = {Way.RESUME: resume_law, Way.PART:
 LAWS: dict[Way, Callable[[Render], None]] = {
     Way.CROP: crop_law,
     Way.AOV: aov_law,
+    Way.TERMS: terms_law,
     Way.FRAGMENT: fragment_law,
-    Way.INDEPENDENT: independent_law,
+    Way.INDEPENDENT: noise_law(Way.INDEPENDENT, 512),
     **{way: method_law(way) for way in (Way.CLASSIC, Way.PROBES, Way.REUSE)},
-    Way.PARTICLES: particles_law,
+    Way.PARTICLES: noise_law(Way.PARTICLES, 2048),
     Way.PILOT: pilot_law,
     Way.DENOISE: denoise_law,
     Way.AUTO: auto_law,

@@ -1,16 +1,18 @@
 """Draw AOVs as colours, on any framebuffer."""
 
 import math
+from typing import get_args
 
 import moderngl
 import numpy as np
 
 from glrt.gpu.glsl import Source
 from glrt.gpu.program import drawing
+from glrt.rendering.aov_tracer import AovMean
 from glrt.rendering.passes import aov_number
 from glrt.rendering.screen.false_colors import VIRIDIS, Scale
 from glrt.scene.camera import Camera
-from glrt.settings import Aov
+from glrt.settings import Aov, Settings, ToneMap
 
 _VERSION = "410 core"
 MOST_BOUNCES = 16  # numbers of bounces with colours of their own
@@ -34,24 +36,31 @@ class AovView:
         self._gl = gl
         self._program: moderngl.Program | None = None
 
-    def draw(self, aov: Aov, mean: moderngl.Texture, camera: Camera, bounces: int = 10) -> None:
+    def draw(
+        self, aov: Aov, mean: AovMean, camera: Camera, settings: Settings, bounces: int
+    ) -> None:
         """Draw albedo as sRGB; normals around middle grey; near things bright; a colour an object.
 
-        In the view of the depth, the focus distance of the camera is middle grey. `bounces` is the
+        In the view of the depth, the focus distance of the camera is middle grey. Terms of light
+        look as the picture does, with exposure and tone curve of the settings. `bounces` is the
         limit of the paths.
         """
         program = self._program or self._compile()
-        mean.use(0)
+        mean.texture.use(0)
         cell = cell_of(camera)
         eye = np.remainder(np.array(camera.position, np.float64), cell)
         values = {
             "mean": 0,
+            "part": mean.part,
+            "parts": mean.parts,
             "aov": aov_number(aov),
             "eye": tuple(eye.tolist()),
             "distance": camera.resolved_focus_distance,
             "cell": cell,
             "colors": VIRIDIS,
             "most": scale_of_bounces(bounces).high,
+            "exposure": settings.exposure,
+            "tonemap": get_args(ToneMap).index(settings.tonemap),
         }
         for name, value in values.items():
             program[name] = value

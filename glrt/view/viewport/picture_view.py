@@ -74,9 +74,10 @@ class PictureView:
 
         Raises RenderError if the driver has no room for that.
         """
-        if session.refused and session.refused == gathered_for(self.view):
-            self.view = "picture"
-        session.aovs, session.refused = gathered_for(self.view), ()
+        needed = gathered_for(self.view, session.pipeline)
+        if session.refused and session.refused == needed:
+            self.view, needed = "picture", ()
+        session.aovs, session.refused = needed, ()
         is_denoised = is_filtered(self.view)
         session.stop = self.denoised.stop(session) if is_denoised else None
         self.bounces = traced_bounces(session)
@@ -236,19 +237,18 @@ class PictureView:
             shown = session.moving.texture(renderer, weights) or light
             self.picture.draw(shown, session.settings, session.is_preview)
             return self._draw_surface(session, renderer) if session.is_preview else None
-
         if is_filtered(view):
             return self._draw_filtered(session, film, view)
         if is_of_probes(view):
             return self._draw_probes(session, renderer, light)
-        aov = aov_of(view)
+        aov, number = aov_of(view), number_of(view)
         mean = renderer.aov_mean(aov) if aov else None
-        number = number_of(view)
         told = session.moving.told(renderer, weights, number) if number else None
 
         def paint() -> None:
             if aov and mean:
-                self.aovs.draw(aov, mean, renderer.scene.camera, self.bounces)
+                settings, camera = session.settings, renderer.scene.camera
+                self.aovs.draw(aov, mean, camera, settings, self.bounces)
             elif view == "error":
                 self.colors.draw_error(film, light, weights, self.mean or 0.0)
             elif view == "dropped":
@@ -275,7 +275,7 @@ class PictureView:
         assert probes
         assert depth
         self._farthest = farthest(probes.grid)
-        balls = self.balls.draw(light, depth, probes, renderer.scene.camera)
+        balls = self.balls.draw(light, depth.texture, probes, renderer.scene.camera)
         if self.view == "probes":
             return self.picture.draw(balls, session.settings, session.is_preview)
         told = renderer.film, light, balls, self.scale
@@ -293,8 +293,8 @@ class PictureView:
     def _draw_surface(self, session: Session, renderer: Renderer) -> None:
         """Draw the first surface instead of a preview that is too noisy, once it has its AOVs."""
         session.surface.judge(self.picture.codes())
-        albedo, normal = map(renderer.aov_mean, NEEDED)
-        self.is_surface = bool(session.surface.is_wanted and albedo and normal)
-        if self.is_surface and albedo and normal:
-            draw, camera = self.surface.draw, renderer.scene.camera
+        found = [mean.texture for mean in map(renderer.aov_mean, NEEDED) if mean]
+        self.is_surface = session.surface.is_wanted and len(found) == len(NEEDED)
+        if self.is_surface:
+            (albedo, normal), camera, draw = found, renderer.scene.camera, self.surface.draw
             self.picture.paint(albedo.size, lambda: draw(albedo, normal, camera), is_preview=True)

@@ -2,6 +2,7 @@
 
 from typing import Literal, get_args
 
+from glrt.gpu.context import Pipeline
 from glrt.rendering.screen.aov_view import MOST_BOUNCES, cell_of, scale_of_bounces
 from glrt.rendering.screen.false_colors import (
     DIFFERENCE,
@@ -16,7 +17,7 @@ from glrt.rendering.screen.false_colors import (
     symmetric,
 )
 from glrt.scene.camera import Camera
-from glrt.settings import GUIDES, Aov
+from glrt.settings import GUIDES, TERMS, Aov
 
 Filtered = Literal["denoised", "denoised error"]
 OfProbes = Literal["probes", "probe distances"]
@@ -45,7 +46,10 @@ HELP = (
     "probe distances: the same with how far each sees on average\n"
     "albedo, normal, depth, position, object: of the first surface behind each pixel; they are "
     "gathered while they are shown\n"
-    "bounces: how often the paths of a pixel scatter before they end, in the mean"
+    "bounces: how often the paths of a pixel scatter before they end, in the mean\n"
+    "emission, direct, indirect: light that scatters never, once, or more often\n"
+    "diffuse, glossy, transmission, volume: light that scatters, by what it last meets on its way "
+    "to the camera: a matte base, a reflection, a surface that it crosses, a medium"
 )
 TITLES: dict[View, str] = {
     "denoised": "denoised; files have the plain picture",
@@ -64,6 +68,13 @@ TITLES: dict[View, str] = {
     "position": "position, x y z as red green blue, again every {cell:g}",
     "object": "a colour for each object",
     "bounces": "bounces of a path until its end, mean",
+    "emission": "light that nothing scatters",
+    "direct": "light that is scattered once",
+    "indirect": "light that is scattered more than once",
+    "diffuse": "light that a matte base scatters first",
+    "glossy": "light that is first reflected",
+    "transmission": "light that first crosses a surface",
+    "volume": "light that a medium scatters first",
 }
 
 
@@ -82,11 +93,13 @@ def limit_text(limit: int | None) -> str:
     return "" if limit is None else f", of paths of up to {limit}"
 
 
-def gathered_for(view: View) -> tuple[Aov, ...]:
-    """Return the AOVs that a view needs."""
+def gathered_for(view: View, pipeline: Pipeline = "compute") -> tuple[Aov, ...]:
+    """Return the AOVs that a view needs. Where one pass gathers all terms of light, all are."""
     if is_of_probes(view):
         return ("depth",)
     aov = aov_of(view)
+    if aov in TERMS and pipeline == "compute":
+        return TERMS
     return GUIDES if is_filtered(view) else (aov,) if aov else ()
 
 

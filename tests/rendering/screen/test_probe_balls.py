@@ -48,7 +48,7 @@ def drawn(scene: Scene, context: Context, **settings: Any) -> Iterator[tuple[Flo
             tracer, light = renderer.probes.tracer, renderer.weighed(renderer.plan.weights)
             assert tracer
             assert depth
-            found = balls.draw(light, depth, tracer, scene.camera)
+            found = balls.draw(light, depth.texture, tracer, scene.camera)
             yield np.frombuffer(found.read(), np.float32).reshape(SIDE, SIDE, 4), (renderer, found)
             balls.release()
 

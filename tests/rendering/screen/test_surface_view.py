@@ -23,7 +23,7 @@ def test_albedo_is_shaded_by_the_angle_to_the_eye(context: Context) -> None:
     with context.gl:
         view, target = SurfaceView(context.gl), context.gl.simple_framebuffer(SIZE, 3)
         with context.gl.scope(target):
-            view.draw(albedo, normal, scene.camera)
+            view.draw(albedo.texture, normal.texture, scene.camera)
         codes = np.frombuffer(target.read(components=3, alignment=1), np.uint8)
         view.release()
         target.release()
