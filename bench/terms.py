@@ -14,9 +14,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from bench.contact_sheet import check_sheet, save_sheet
 from bench.program import add_rounds, at_least, exit_code_of, machine, parser_of
 from bench.ratios import LEAST_ROUNDS, ratio_of
+from glrt.core.files import check_writable, write_whole
 from glrt.gpu.context import Context, open_context
 from glrt.image.image import Image
 from glrt.image.sources import load
@@ -45,14 +45,14 @@ def main(arguments: list[str] | None = None) -> int:
     parser = parser_of("terms", __doc__)
     parser.add_argument("scene", nargs="?", default="cornell", help="default: cornell")
     parser.add_argument("--samples", type=at_least(16), default=256, help="default: 256")
-    parser.add_argument("-o", dest="file", type=Path, help="picture to write, .jpg or .png")
+    parser.add_argument("-o", dest="file", type=Path, metavar="FILE.jpg", help="picture to write")
     add_rounds(parser, 192, LEAST_ROUNDS, LEAST_ROUNDS)
     return exit_code_of(lambda: _run(parser.parse_args(arguments)))
 
 
 def _run(parsed: argparse.Namespace) -> None:
     if parsed.file:
-        check_sheet(parsed.file)
+        check_writable(parsed.file)
     context, cells = open_context(), []
     print(f"| method | picture | {' | '.join(SHOWN)} | time over that without terms |")
     print("|---" * (len(SHOWN) + 3) + "|")
@@ -66,8 +66,10 @@ def _run(parsed: argparse.Namespace) -> None:
         cells += [_titled(title, mean) for title, mean in zip(titles, means, strict=True)]
     print(f"\n{machine(context.renderer)}; {parsed.size} x {parsed.size}, {parsed.samples} samples")
     if parsed.file:
-        rows = [np.concatenate(cells[i : i + 7], axis=1) for i in range(0, len(cells), 7)]
-        save_sheet([np.concatenate(rows)], parsed.file)
+        columns = 1 + len(SHOWN)
+        rows = (cells[i : i + columns] for i in range(0, len(cells), columns))
+        sheet = np.concatenate([np.concatenate(row, axis=1) for row in rows])
+        write_whole(parsed.file, lambda path: _write(path, sheet))
 
 
 def _found(context: Context, method: Method, parsed: argparse.Namespace) -> Found:
@@ -87,6 +89,12 @@ def _found(context: Context, method: Method, parsed: argparse.Namespace) -> Foun
     finally:
         plain.release()
         sorting.release()
+
+
+def _write(path: Path, sheet: Codes) -> None:
+    from PIL import Image as Pictures
+
+    Pictures.fromarray(sheet).save(path, "JPEG", quality=88, subsampling=0)
 
 
 def _titled(title: str, radiance: NDArray[Any]) -> Codes:

@@ -13,7 +13,17 @@ from pydantic.fields import FieldInfo
 from glrt.core.errors import UsageError
 
 Method = Literal[
-    "naive", "nee", "mis", "phong", "blinn", "whitted", "cook", "ddgi", "gather", "resampled"
+    "naive",
+    "nee",
+    "mis",
+    "phong",
+    "blinn",
+    "whitted",
+    "whitted_tree",
+    "cook",
+    "ddgi",
+    "gather",
+    "resampled",
 ]
 Sampler = Literal["sobol", "sobol64", "independent"]
 Caustics = Literal["off", "on"]
@@ -78,7 +88,8 @@ class RenderSettings(Frozen):
         "mis",
         description="how light is found; naive: by scattering alone; nee: by sampling a lamp at "
         "each vertex; mis: by both, weighted (multiple importance sampling); phong, blinn, "
-        "whitted, cook: lighting models older than path tracing, which leave light out; ddgi: "
+        "whitted, whitted_tree, cook: lighting models older than path tracing, which leave light "
+        "out; ddgi: "
         "direct light as in mis, indirect light from a grid of probes; gather: as ddgi, but paths "
         "are traced to one more matte surface (final gathering); resampled: as gather, but the "
         "first matte surface is lit by one resampled point",

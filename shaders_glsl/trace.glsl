@@ -62,6 +62,7 @@
 #include "integrators/meeting.glsl"
 #include "integrators/path_beside_particles.glsl"
 #include "integrators/path_in_media.glsl"
+#include "integrators/branches.glsl"
 #include "integrators/path.glsl"
 #include "film/pixel.glsl"
 #include "film/halves.glsl"

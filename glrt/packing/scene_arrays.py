@@ -21,6 +21,7 @@ from glrt.packing.shapes import NUMBERED, Placing, in_order, pack_shapes, unit
 from glrt.packing.texture_maps import pack_coordinates, pack_maps
 from glrt.packing.triangles import pack_tints
 from glrt.plan.facts import SceneFacts
+from glrt.plan.methods import depth_of
 from glrt.plan.plan import Plan
 from glrt.scene.camera import Camera
 from glrt.scene.values import BLACK
@@ -119,7 +120,7 @@ def pack_frame(
     frame = {
         "camera": pack_camera(scene.camera, settings.width / settings.height),
         "background_bottom": bottom,
-        "bounces": settings.bounces,
+        "bounces": depth_of(settings),
         "background_horizon": horizon[0] if horizon else BLACK,
         "background_top": top,
         "sun_direction": scene.sun.towards if scene.sun else (0.0, 1.0, 0.0),

@@ -54,7 +54,7 @@ MEANINGS: dict[Way, str] = {
     Way.LAYERS: "a picture relit in the window, and the window's film",
     Way.FRAGMENT: "`--pipeline fragment`, for OpenGL 4.1",
     Way.INDEPENDENT: "`--sampler independent`",
-    Way.CLASSIC: "`--method phong`, `blinn`, `whitted`, `cook`",
+    Way.CLASSIC: "`--method phong`, `blinn`, `whitted`, `whitted_tree`, `cook`",
     Way.PROBES: "`--method ddgi`, `gather`, `resampled`: indirect light from probes",
     Way.REUSE: "`--method resampled`, unless `--reuse none`: points that other samples have kept",
     Way.PARTICLES: "`--caustics on`: particles from lamps",

@@ -24,6 +24,7 @@ NO_LAYERS: dict[str, bool | int] = {
     "BACKGROUND_LAYER": 0,
     "SUN_LAYER": 0,
 }
+NO_COUNTS = {"COUNT_RAYS": False, "COUNT_BOUNCES": False, "LIGHT_TERMS": 0}
 PLAIN_PROBES: dict[str, bool | int] = {
     "FROM_PROBES": False,  # paths start at probes
     "WITHOUT_VISIBILITY": False,  # ignores the visibility of probes: for experiments
@@ -254,7 +255,9 @@ class Needs:
         most=0,
     )
     roulette: bool = _row(
-        lambda it: it.settings.roulette and it.traits.follows, "roulette", reasons.roulette
+        lambda it: it.settings.roulette and it.traits.follows and not it.traits.splits,
+        "roulette",
+        reasons.roulette,
     )
     block: int = _row(  # samples in an observation: 16 or 64 of Sobol's points, 1 of random numbers
         lambda it: it.settings.block,
@@ -271,10 +274,8 @@ class Needs:
         types = {f"HAS_{name.upper()}": name in self.materials for name in own}
         lamps = {f"HAS_{kind.upper()}_LIGHT": kind in self.lamps for kind in SAMPLED}
         values = {name.upper(): getattr(self, name) for name in ROWS if name not in SETS}
-        counts = {"LAMP_KINDS": len(self.lamps), "COUNT_RAYS": False, "COUNT_BOUNCES": False}
-        counts |= {"LIGHT_TERMS": 0}
-        every = {**kinds, **types, **lamps, **values, **NO_LAYERS, **NO_TREE, **counts}
-        return {**every, **PLAIN_PROBES}
+        every = {**kinds, **types, **lamps, **values, **NO_LAYERS, **NO_TREE, **PLAIN_PROBES}
+        return {**every, "LAMP_KINDS": len(self.lamps), **NO_COUNTS}
 
 
 ROWS: dict[str, Row] = {it.name: it.metadata["row"] for it in fields(Needs)}

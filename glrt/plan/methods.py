@@ -6,7 +6,11 @@ docs/extending.md explains how to add a method.
 from dataclasses import dataclass
 from typing import get_args
 
-from glrt.settings import Method, Reuse, Settings
+from glrt.gpu.glsl import read
+from glrt.gpu.structs import read_constants
+from glrt.settings import Method, RenderSettings, Reuse, Settings
+
+DEPTH_OF_TREE = read_constants(read("integrators/branches.glsl"))["MOST_DEPTH_OF_TREE"]
 
 
 @dataclass(frozen=True)
@@ -18,6 +22,7 @@ class Traits:
     weights_both: bool = False  # weighs light sampling and scattering by the power heuristic
     chooses_lights: bool = False  # chooses one lamp at each point, by flux and nearness
     follows: bool = True  # follows light over mirrors and through glass
+    splits: bool = False  # follows both rays at glass, as a tree, not one at random
     has_lens: bool = True
     has_rough: bool = True  # renders rough metal and glass; else they are smooth
     has_probes: bool = False  # takes indirect light from a grid of probes
@@ -42,6 +47,7 @@ METHODS: dict[str, Traits] = {
     "phong": Traits(model=1, follows=False, has_lens=False),
     "blinn": Traits(model=2, follows=False, has_lens=False),
     "whitted": Traits(model=3, has_lens=False, has_rough=False),
+    "whitted_tree": Traits(model=5, splits=True, has_lens=False, has_rough=False),
     "cook": Traits(model=4, chooses_lights=True),
     "ddgi": Traits(samples_lights=True, weights_both=True, chooses_lights=True, has_probes=True),
     "gather": Traits(
@@ -65,6 +71,12 @@ if list(METHODS) != list(get_args(Method)):
 
 TEMPORAL: tuple[Reuse, ...] = ("temporal", "both")  # reuse what the pixel has kept
 SPATIAL: tuple[Reuse, ...] = ("spatial", "both")  # reuse what pixels around have kept
+
+
+def depth_of(settings: RenderSettings) -> int:
+    """Return the most scattering events that the method follows."""
+    splits = METHODS[settings.method].splits
+    return min(settings.bounces, DEPTH_OF_TREE) if splits else settings.bounces
 
 
 def reuses_points(settings: Settings) -> bool:

@@ -20,7 +20,7 @@ from glrt.packing.kernel_structs import CONSTANTS
 from glrt.plan.case import has_image
 from glrt.plan.facts import MESH, SceneFacts
 from glrt.plan.features import NEAR
-from glrt.plan.methods import METHODS, SPATIAL, TEMPORAL, reuses_points
+from glrt.plan.methods import METHODS, SPATIAL, TEMPORAL, depth_of, reuses_points
 from glrt.plan.plan import Plan
 from glrt.scene.scene import Scene
 from glrt.settings import RenderSettings
@@ -144,6 +144,8 @@ def _rounds_of_choice(found: SceneFacts) -> int:
 def _rounds_of_shading(found: SceneFacts, settings: RenderSettings, search: int) -> int:
     """Rounds of a lighting model: its segments, and a shadow ray or a highlight for each lamp."""
     lamps = sum(found.lamps.values())
+    if METHODS[settings.method].splits:
+        return (2 << depth_of(settings)) * (1 + lamps) * (1 + search)
     if METHODS[settings.method].follows:
         return (settings.bounces + 1) * (1 + search) + lamps * (1 + search)
     return 1 + search + lamps * (1 + HIGHLIGHT_ROUNDS)

@@ -8,12 +8,14 @@ const int PHONG = 1;    // no shadows; highlights around the mirrored direction 
 const int BLINN = 2;    // the same around the half vector (Blinn 1977): the thesis's Appendix A
 const int WHITTED = 3;  // shadows, mirrors and glass (Whitted 1980): Appendix B
 const int COOK = 4;     // a random point of a lamp, of the lens and of a lobe (Cook et al. 1984)
+const int WHITTED_TREE = 5;  // Whitted's tree: glass sends both rays, and nothing is random but the place in a pixel
 
 const int MOST_EXPONENT = 16777216;  // 2^24
 
-// Whether light is followed beyond this surface. Glass divides light by a random choice and not by a
-// tree. The mean is the same, work does not double at each surface, and antialiasing takes many
-// samples a pixel anyway. Principled surfaces reflect only lamps.
+// Whether light is followed beyond this surface. Principled surfaces reflect only lamps.
+//
+// At glass, all models but WHITTED_TREE follow one of two rays, by a random choice. The mean is the same, work does not
+// double at each surface, and antialiasing takes many samples a pixel anyway.
 bool is_followed(Material material) {
     if (HAS_PRINCIPLED && material.kind == PRINCIPLED) return MODEL == 0;
     return MODEL == 0 || MODEL >= WHITTED && material.kind != MATTE;
@@ -108,7 +110,8 @@ vec3 point_light(Vertex vertex, Ray from, int shape) {
     from.direction = to_center / distance;
     vec3 wi = to_local(vertex.frame, from.direction);
     if (wi.z <= 0.0) return vec3(0.0);
-    if (MODEL == WHITTED && occluded(from, distance, shape)) return vec3(0.0);
+    bool has_shadows = MODEL == WHITTED || MODEL == WHITTED_TREE;
+    if (has_shadows && occluded(from, distance, shape)) return vec3(0.0);
     float across = lamp.disk + abs(dot(lamp.facing, from.direction));
     bool is_front = dot(lamp.facing, from.direction) < 0.0;
     vec3 emission = emitted(material_at(lamp.material), -from.direction, is_front);

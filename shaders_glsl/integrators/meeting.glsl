@@ -48,6 +48,11 @@ Meeting meet(Path path, Surface surface, Material material, bool by_shading) {
     return Meeting(vertex, Normals(facing, shading), ray, behind, beyond, medium);
 }
 
+// Whether the path is lost: a normal for shading scatters it through the surface, or back where it should cross.
+bool is_lost(Meeting at, Scattering next) {
+    return HAS_SHADING && (dot(next.direction, at.normals.facing) < 0.0) != next.crosses;
+}
+
 // Sends the path on from the surface in the scattered direction.
 void leave(inout Path path, Meeting at, Scattering next) {
     Ray ray = at.ray;

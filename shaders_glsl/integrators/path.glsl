@@ -210,11 +210,6 @@ void gather_emission(inout Path path, Surface surface, Material material, float 
     gather(path, light, material.layer, path.depth);
 }
 
-// Whether the path is lost: a normal for shading scatters it through the surface, or back where it should cross.
-bool is_lost(Meeting at, Scattering next) {
-    return HAS_SHADING && (dot(next.direction, at.normals.facing) < 0.0) != next.crosses;
-}
-
 // Gathers direct light at a surface, then scatters the path there; false when the path ends.
 bool scatter_path(inout Path path, Surface surface, Material whole, inout Sampler rng) {
     leave_vertex(rng.seed, path.depth + 1);
@@ -230,7 +225,9 @@ bool scatter_path(inout Path path, Surface surface, Material whole, inout Sample
     if (resamples) begin_resampling(path, at.vertex, at.ray);
     gather_direct(path, at, resamples, rng);
     gather_from_probes(path, at.vertex, surface.position, rng);
-    Scattering next = sample_material(at.vertex, rng);
+    Scattering next;
+    if (is_split(material)) next = split_path(path, at);
+    else next = sample_material(at.vertex, rng);
     record_scattering(at.vertex.frame[2], next.direction, next.pdf, next.crosses);
     sort_by_surface(path, at.vertex, to_local(at.vertex.frame, next.direction), next.pdf, next.crosses);
     if (is_lost(at, next)) {

@@ -30,6 +30,7 @@ int add_samples(inout Pixel pixel, inout Layers layers, ivec2 place) {
     start_resampling(rng);
     while (index < end) {
         if (extend_path(path, rng)) continue;
+        if (MODEL == WHITTED_TREE && !loop_was_cut && take_branch(path)) continue;
         if (loop_was_cut) break;
         end_resampling(path, place, index);
         add_sample(pixel, value_of(path), index);

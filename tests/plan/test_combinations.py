@@ -63,6 +63,7 @@ REFUSED = [pair for pair in pairs() if not works(*pair)]
     "reuse of points---error",
 )
 @pytest.mark.slow_cases("*--caustics*", "a merged picture-*", "*terms of light*")
+@pytest.mark.slow_cases("light by layers---*", "a classic lighting model---*")
 @pytest.mark.parametrize(
     ("one", "other"),
     [

@@ -22,7 +22,8 @@ MATERIALS: dict[str, dict[str, Any]] = {
 BALL = sphere([0, 0, -3], 1, "matte")
 LAMP = sphere([0, 3, -3], 1, "lamp")
 SKY = {"background": {"color": [1, 1, 1]}}
-LOCAL, FOLLOWING, ALL = {"phong", "blinn"}, {"whitted", "cook"}, set(CLASSIC)
+LOCAL, TREES, ALL = {"phong", "blinn"}, {"whitted", "whitted_tree"}, set(CLASSIC)
+FOLLOWING = {*TREES, "cook"}
 INDIRECT = "no indirect light"
 
 
@@ -32,11 +33,11 @@ INDIRECT = "no indirect light"
         ([BALL, LAMP], {}, INDIRECT, ALL),
         ([LAMP], {}, INDIRECT, set()),
         ([BALL, LAMP], {}, "no shadows", LOCAL),
-        ([BALL, LAMP], {}, "hard shadows: lamps are points", {"whitted"}),
+        ([BALL, LAMP], {}, "hard shadows: lamps are points", TREES),
         ([BALL], SKY, "hard shadows: lamps are points", set()),
         ([BALL, sphere([2, 0, -3], 1, "mirror")], SKY, "mirrors reflect nothing", LOCAL),
         ([BALL, sphere([2, 0, -3], 1, "rough")], SKY, "mirrors reflect nothing", set()),
-        ([sphere([2, 0, -3], 1, "rough")], SKY, "rough metal is a mirror", {"whitted"}),
+        ([sphere([2, 0, -3], 1, "rough")], SKY, "rough metal is a mirror", TREES),
         ([sphere([2, 0, -3], 1, "glass")], SKY, "glass is black", LOCAL),
         (
             [BALL, LAMP, sphere([2, 0, -3], 1, "glass")],

@@ -109,7 +109,8 @@ def test_light_belongs_to_what_scatters_it_first(context: Context, number: int) 
 # --- the sum, and other ways to the same terms -----------------------------------------------
 
 METHODS: tuple[Method, ...] = (
-    *("naive", "nee", "mis", "phong", "blinn", "whitted", "cook", "ddgi", "gather"),
+    *("naive", "nee", "mis", "phong", "blinn", "whitted", "whitted_tree", "cook"),
+    *("ddgi", "gather"),
 )
 WAYS = [("cornell", method) for method in METHODS]
 WAYS += [("gloss", "mis"), ("gloss", "ddgi"), ("frosted", "mis"), ("fog", "mis"), ("fog", "naive")]
