@@ -19,5 +19,6 @@ Modules, each importing only what stands above it:
 - camera_moves: the camera moved by mouse and keys
 - app: state shared by the parts of the window
 - panels: the panels
+- palette: a box that finds controls and commands
 - window: main loop and shutdown
 """

@@ -23,6 +23,7 @@ from glrt.view.event_wait import EventWait
 from glrt.view.file_watch import Watch
 from glrt.view.messages import Messages
 from glrt.view.opengl import INSTEAD, window_version, wrap_window
+from glrt.view.palette.box import Palette
 from glrt.view.panels.confirmations import draw_question
 from glrt.view.panels.key_table import draw_key_overlay
 from glrt.view.panels.layout import Shares
@@ -43,6 +44,7 @@ from glrt.view.state.session import Session
 from glrt.view.style import WindowStyle
 from glrt.view.viewport.picture import Picture
 from glrt.view.viewport.picture_view import PictureView
+from glrt.view.widgets.finder import FINDER
 
 import glfw  # isort: skip  # the library of imgui_bundle, which must come first
 
@@ -99,6 +101,7 @@ class Window:
         self._interruption = Interruption()
         self._wait, self._told = EventWait(), tuple[object, ...]()
         self._shares = Shares()
+        self._palette = Palette()
         self.add_ons = immapp.AddOnsParams(with_implot=True)
         self.params = self._params()
 
@@ -215,8 +218,8 @@ class Window:
     def _reports(self, now: float) -> tuple[object, ...]:
         """Return the texts that appear or disappear without an event."""
         messages = self.app.messages
-        offered = len(self.recovery.offers)
-        return self.app.session.problem, messages.recent(now), messages.question, offered
+        told = self.app.session.problem, messages.recent(now), messages.question
+        return *told, len(self.recovery.offers), FINDER.is_marking
 
     def _keep(self, now: float) -> None:
         """Write changed preferences soon, not only at the end: a window may be killed."""
@@ -228,6 +231,7 @@ class Window:
         """Draw the popups above the panels: tour, questions and file dialog."""
         draw_tour(self.app)
         draw_key_overlay(self.app)
+        self._palette.draw(self.app)
         draw_recovery(self.recovery)
         draw_question(self.app)
         self.app.files.dialogs.poll(is_drawn=True)
