@@ -20,11 +20,12 @@ from glrt.settings import settings_for
 
 DESCRIPTION = (
     "Show a scene in a window and change all its settings live. Closing the window saves only its "
-    "preferences; its buttons save pictures and scenes."
+    "preferences; its buttons save pictures and scenes. Unsaved edits of a window that is killed "
+    "are offered at the next start with the same scene."
 )
 EPILOG = (
-    "Exit codes: 0 closed, 2 wrong usage or scene, 3 no window or no usable OpenGL, 129, 130 and "
-    "143 interrupted."
+    "Exit codes: 0 closed, 2 wrong usage or scene, 3 no window, no usable OpenGL or a lost "
+    "display, 129, 130 and 143 interrupted."
 )
 
 

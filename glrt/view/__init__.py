@@ -15,8 +15,10 @@ Modules, each importing only what stands above it:
 - compared_picture: picture A, rendered next to B
 - messages: messages and questions
 - files: open and saved files
+- recovery: unsaved edits kept for the next start
 - camera_moves: the camera moved by mouse and keys
 - app: state shared by the parts of the window
 - panels: the panels
+- palette: a box that finds controls and commands
 - window: main loop and shutdown
 """

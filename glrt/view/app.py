@@ -64,6 +64,7 @@ class App(CameraMoves):
     inspects: bool = False  # whether the values of the pixel under the mouse are shown
     is_picture_alone: bool = False  # whether the panels are hidden
     shows_keys: bool = False  # whether all keys are shown over the window
+    shows_palette: bool = False  # whether words find controls and commands
     paths: PathExplorer = field(init=False)
     silhouette: Silhouette = field(init=False)  # of the selected mesh
     tour_step: int | None = 0  # step on the screen; None: closed until the next start
@@ -179,6 +180,10 @@ class App(CameraMoves):
     def toggle_keys(self) -> None:
         """Show or hide all keys."""
         self.shows_keys = not self.shows_keys
+
+    def toggle_palette(self) -> None:
+        """Open or close the box that finds controls and commands."""
+        self.shows_palette = not self.shows_palette
 
     def escape(self) -> None:
         """Close what lies over the window, else leave the paths."""

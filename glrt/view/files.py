@@ -29,7 +29,7 @@ from glrt.view.state.session import Session
 
 Then = Callable[[], object]
 PICTURE_NAME = "picture.png"
-EDITED = ("objects", "materials", "lights", "background", "sun")  # edits of these are unsaved edits
+EDITED = ("objects", "materials", "media", "medium", "lights", "background", "sun")  # to be saved
 
 
 def nothing() -> None:

@@ -23,6 +23,7 @@ from glrt.view.event_wait import EventWait
 from glrt.view.file_watch import Watch
 from glrt.view.messages import Messages
 from glrt.view.opengl import INSTEAD, window_version, wrap_window
+from glrt.view.palette.box import Palette
 from glrt.view.panels.confirmations import draw_question
 from glrt.view.panels.key_table import draw_key_overlay
 from glrt.view.panels.layout import Shares
@@ -31,6 +32,10 @@ from glrt.view.panels.plots import draw_figures
 from glrt.view.panels.shortcuts import draw_keys
 from glrt.view.panels.tour import draw_tour
 from glrt.view.panels.viewport import draw_viewport
+from glrt.view.recovery.headers import recovery_folder
+from glrt.view.recovery.keeper import Recovery
+from glrt.view.recovery.lost_display import handle_lost_display
+from glrt.view.recovery.question import draw_recovery
 from glrt.view.state.denoised_picture import DenoisedPicture
 from glrt.view.state.frame_budget import FrameBudget
 from glrt.view.state.idle_kernel import IdleKernel
@@ -39,6 +44,7 @@ from glrt.view.state.session import Session
 from glrt.view.style import WindowStyle
 from glrt.view.viewport.picture import Picture
 from glrt.view.viewport.picture_view import PictureView
+from glrt.view.widgets.finder import FINDER
 
 import glfw  # isort: skip  # the library of imgui_bundle, which must come first
 
@@ -75,9 +81,10 @@ KEEP_EVERY = 2.0  # seconds between checks whether preferences must be written
 
 
 class Window:
-    """A session in a window; `app` exists once the window is open."""
+    """A session in a window; `app` and `recovery` exist once the window is open."""
 
     app: App
+    recovery: Recovery
 
     def __init__(
         self, source: str, scene: Scene, settings: Settings, pipeline: Pipeline = "auto"
@@ -94,6 +101,7 @@ class Window:
         self._interruption = Interruption()
         self._wait, self._told = EventWait(), tuple[object, ...]()
         self._shares = Shares()
+        self._palette = Palette()
         self.add_ons = immapp.AddOnsParams(with_implot=True)
         self.params = self._params()
 
@@ -168,6 +176,8 @@ class Window:
         self.app.messages.complain(problem)
         self.app.leave = self._leave
         self._native = Native(self.app.files.drop)
+        self.recovery = Recovery(self.app.files, recovery_folder())
+        handle_lost_display(self.recovery.last_words)
 
     def _render(self) -> None:
         """Do the work before a frame is drawn: keys, edits, samples and the picture."""
@@ -191,8 +201,9 @@ class Window:
             self.params.app_shall_exit = True
 
     def _poll(self, now: float) -> None:
-        """Handle what sends no event: changed files, dialogs, and preferences to be written."""
+        """Handle what sends no event: changed files, dialogs, edits and preferences to be kept."""
         self.app.follow_files(now)
+        self.recovery.follow()
         self.app.files.dialogs.poll(is_drawn=False)
         self._keep(now)
 
@@ -207,7 +218,8 @@ class Window:
     def _reports(self, now: float) -> tuple[object, ...]:
         """Return the texts that appear or disappear without an event."""
         messages = self.app.messages
-        return self.app.session.problem, messages.recent(now), messages.question
+        told = self.app.session.problem, messages.recent(now), messages.question
+        return *told, len(self.recovery.offers), FINDER.is_marking
 
     def _keep(self, now: float) -> None:
         """Write changed preferences soon, not only at the end: a window may be killed."""
@@ -216,9 +228,11 @@ class Window:
             self.app.keep_preferences()
 
     def _ask(self) -> None:
-        """Draw the popups above the panels: tour, question and file dialog."""
+        """Draw the popups above the panels: tour, questions and file dialog."""
         draw_tour(self.app)
         draw_key_overlay(self.app)
+        self._palette.draw(self.app)
+        draw_recovery(self.recovery)
         draw_question(self.app)
         self.app.files.dialogs.poll(is_drawn=True)
 
@@ -233,6 +247,7 @@ class Window:
         self.params.app_shall_exit = True
 
     def _close(self) -> None:
+        self.recovery.end(is_interrupted=self._interruption.signal is not None)
         self.app.keep_preferences()
         self.app.pair.go_on(False)
         self.app.show.release()

@@ -114,6 +114,8 @@ SLOW = (  # half a second each, or more
     "a_walk_without_end_stops_at_the_limits",
     "the_figures_report_error_and_forecast",
     "points_are_reused_as_the_panel_says",
+    "the_question_on_edits_lies_in_the_picture_and_is_answered_once",
+    "arrow_keys_choose_a_row_and_a_click_elsewhere_closes_the_box",
 )
 
 

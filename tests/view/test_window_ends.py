@@ -23,7 +23,7 @@ def test_a_window_that_is_killed_while_it_starts_leaves_no_traceback(
     display: str, tmp_path: Path, seconds: float
 ) -> None:
     command = [sys.executable, "-m", "glrt", "view", "cornell", "--width", "32", "--height", "32"]
-    environment = {**os.environ, "DISPLAY": display, "XDG_CONFIG_HOME": str(tmp_path)}
+    environment = {**os.environ, "DISPLAY": display, **folders(tmp_path)}
     pipe = subprocess.PIPE
     with subprocess.Popen(command, env=environment, stderr=pipe, text=True) as window:
         time.sleep(seconds)
@@ -64,26 +64,10 @@ def test_a_signal_raises_nothing_in_compiled_packages_that_are_loading(tmp_path:
     ],
 )
 def test_a_window_ends_at_any_moment(display: str, tmp_path: Path, moment: str, code: int) -> None:
-    dialog = tmp_path / "zenity"
-    dialog.write_text("#!/bin/sh\necho $$ > dialog.new\nmv dialog.new dialog.pid\nexec sleep 99\n")
-    dialog.chmod(0o755)
     preferences = tmp_path / "config" / "glrt" / "view.json"
     preferences.parent.mkdir(parents=True)
     preferences.write_text('{"theme": "light"}')
-    environment = {
-        "DISPLAY": display,
-        "XDG_CONFIG_HOME": str(tmp_path / "config"),
-        "PATH": f"{tmp_path}:{os.environ['PATH']}",
-        "PYTHONPATH": os.pathsep.join([str(ROOT), *sys.path]),
-    }
-    done = subprocess.run(
-        [sys.executable, "-m", "tests.window.moments", moment],
-        capture_output=True,
-        text=True,
-        cwd=tmp_path,
-        env={**os.environ, **environment},
-        timeout=250,
-    )
+    done = ended_at(moment, display, tmp_path)
     assert (done.returncode, done.stderr) == (code, "")
     picture = tmp_path / "picture.exr"
     if moment == "saving":
@@ -92,9 +76,64 @@ def test_a_window_ends_at_any_moment(display: str, tmp_path: Path, moment: str, 
         return assert_gone(picture)
     assert json.loads(preferences.read_text()) == {"theme": "light", "mode": "fly"}
     assert list(tmp_path.rglob(".glrt-*")) == []
+    assert len(kept_edits(tmp_path)) == (moment == "terminated_with_edits")
     if moment == "choosing":
         assert_gone(Path("/proc") / (tmp_path / "dialog.pid").read_text().strip())
     return None
+
+
+@pytest.mark.slow
+def test_the_edits_of_a_killed_window_are_restored_in_the_next(
+    display: str, tmp_path: Path
+) -> None:
+    assert ended_at("killed_with_edits", display, tmp_path).returncode == -signal.SIGKILL
+    (kept,) = kept_edits(tmp_path)
+    scene = kept.read_text()
+    restored = ended_at("restoring", display, tmp_path)
+    assert (restored.returncode, restored.stderr) == (143, "")
+    (again,) = kept_edits(tmp_path)
+    assert again != kept
+    assert again.read_text().splitlines()[1:] == scene.splitlines()[1:]
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere there is always a display")
+def test_edits_outlive_the_display(display: str, tmp_path: Path) -> None:
+    done = ended_at("display_lost_with_edits", display, tmp_path)
+    (kept,) = kept_edits(tmp_path)
+    assert done.returncode == 3
+    assert str(kept) in done.stderr
+    assert done.stderr.count("\n") == 1
+
+
+def ended_at(moment: str, display: str, base: Path) -> "subprocess.CompletedProcess[str]":
+    """Run a window in a folder until it ends at a moment; see `tests/window/moments.py`."""
+    dialog = base / "zenity"
+    dialog.write_text("#!/bin/sh\necho $$ > dialog.new\nmv dialog.new dialog.pid\nexec sleep 99\n")
+    dialog.chmod(0o755)
+    environment = {
+        "DISPLAY": display,
+        **folders(base),
+        "PATH": f"{base}:{os.environ['PATH']}",
+        "PYTHONPATH": os.pathsep.join([str(ROOT), *sys.path]),
+    }
+    return subprocess.run(
+        [sys.executable, "-m", "tests.window.moments", moment],
+        capture_output=True,
+        text=True,
+        cwd=base,
+        env={**os.environ, **environment},
+        timeout=250,
+    )
+
+
+def kept_edits(base: Path) -> list[Path]:
+    return list((base / "state" / "glrt" / "recovery").glob("*.toml"))
+
+
+def folders(base: Path) -> dict[str, str]:
+    """Variables of the environment for folders of the user below another folder."""
+    return {f"XDG_{kind.upper()}_HOME": str(base / kind) for kind in ("config", "state")}
 
 
 def assert_gone(path: Path) -> None:

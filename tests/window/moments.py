@@ -8,6 +8,7 @@ import ctypes
 import math
 import os
 import signal
+import socket
 import sys
 from collections.abc import Callable
 from ctypes.util import find_library
@@ -105,6 +106,37 @@ def closing_with_edits(window: Window, frame: int) -> None:
         question.answers["do not save"]()
 
 
+def killed_with_edits(window: Window, frame: int) -> None:
+    """As soon as the edit is kept."""
+    if frame == FRAMES:
+        window.app.add("sphere")
+    if frame > FRAMES and window.recovery.file.exists():
+        os.kill(os.getpid(), signal.SIGKILL)
+
+
+def restoring(window: Window, frame: int) -> None:
+    """The window after that one: it has the edit when it is terminated."""
+    objects = window.app.session.opened.scene.objects
+    if frame == FRAMES:
+        window.recovery.restore()
+        assert len(window.app.session.scene.objects) == len(objects) + 1
+        window.app.undo()
+        assert window.app.session.scene.objects == objects
+        window.app.redo()
+        terminate()
+
+
+def display_lost_with_edits(window: Window, frame: int) -> None:
+    """The connection to the X server breaks before the edit is kept."""
+    if frame == FRAMES:
+        window.app.add("sphere")
+        x11 = ctypes.CDLL(find_library("X11"))
+        x11.XConnectionNumber.argtypes = [ctypes.c_void_p]
+        library: Any = glfw
+        with socket.socket(fileno=os.dup(x11.XConnectionNumber(library.get_x11_display()))) as one:
+            one.shutdown(socket.SHUT_RDWR)
+
+
 def terminated_with_edits(window: Window, frame: int) -> None:
     """A signal is not asked back."""
     if frame == FRAMES:
@@ -155,6 +187,9 @@ MOMENTS: dict[str, Act] = {
         resting,
         closing,
         closing_with_edits,
+        killed_with_edits,
+        restoring,
+        display_lost_with_edits,
         terminated_with_edits,
     )
 }

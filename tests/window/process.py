@@ -60,6 +60,7 @@ class CheckedWindow:
             shutil.copytree(ROOT / name, folder / name, ignore=skipped)
         places = {
             "XDG_CONFIG_HOME": str(folder / "config"),
+            "XDG_STATE_HOME": str(folder / "state"),
             "PYTHONPATH": os.pathsep.join([str(folder), *sys.path]),
         }
         with self._log.open("w") as log:

@@ -33,6 +33,11 @@ class History(Generic[Value]):
         return bool(self._future)
 
     @property
+    def steps(self) -> int:
+        """Number of steps that can be undone, at most MOST."""
+        return len(self._past)
+
+    @property
     def before(self) -> Value | None:
         """Value that undo would restore; None if there is none."""
         return self._past[-1] if self._past else None

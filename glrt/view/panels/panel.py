@@ -30,6 +30,7 @@ from glrt.view.state.preferences import Preferences
 from glrt.view.state.session import Session
 from glrt.view.widgets.cost_badges import COLORS, legend, tag
 from glrt.view.widgets.fields import button, edited, edited_fields, tip
+from glrt.view.widgets.finder import FINDER
 from glrt.view.widgets.steady_widget import ANCHOR
 
 SETTINGS = {c.name: c for c in controls_of(Settings, leave_out=("crop", "denoise"))}
@@ -65,10 +66,11 @@ def draw_panel(app: App) -> None:
 def _rows(app: App) -> None:
     """Draw the cautions and all sections, which scroll below the bar."""
     _cautions(app)
-    for title, section, flags in _SECTIONS:
-        if (section is draw_object and app.is_to_be_seen) or (
-            section is draw_pixel_paths and app.paths.is_new
-        ):
+    for title, section, flags in SECTIONS:
+        FINDER.enter(title)
+        is_wanted = section is draw_object and app.is_to_be_seen
+        is_wanted |= section is draw_pixel_paths and app.paths.is_new
+        if is_wanted or FINDER.wants(title):
             imgui.set_next_item_open(True)
         is_shown = imgui.collapsing_header(title, flags)
         ANCHOR.note()
@@ -78,6 +80,7 @@ def _rows(app: App) -> None:
             section(app)
         if is_new:
             _bring_to_sight(top)
+    FINDER.enter("")
 
 
 def _bring_to_sight(top: float) -> None:
@@ -196,7 +199,7 @@ def _preferences(app: App, controls: list[Control]) -> None:
             app.prefer(replaced(app.preferences, **changes))
 
 
-_SECTIONS = (
+SECTIONS = (
     ("Light", draw_lights, _OPEN),
     ("Paths", _paths, _OPEN),
     ("Samples", _samples, _OPEN),

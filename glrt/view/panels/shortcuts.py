@@ -17,7 +17,7 @@ _AXES: dict[Move, tuple[int, int, int]] = {  # right, up, forward
     "up": (0, 1, 0),
     "down": (0, -1, 0),
 }
-_COMMANDS: dict[Action, Callable[[App], object]] = {  # command of each action
+COMMANDS: dict[Action, Callable[[App], object]] = {  # command of each action
     "home": lambda app: app.home(),
     "frame": lambda app: app.frame_selected(),
     "pause": lambda app: app.pause(),
@@ -26,6 +26,7 @@ _COMMANDS: dict[Action, Callable[[App], object]] = {  # command of each action
     "inspect": lambda app: app.inspect(),
     "paths": lambda app: app.choose_paths(),
     "keys": lambda app: app.toggle_keys(),
+    "palette": lambda app: app.toggle_palette(),
     "brighter": lambda app: app.expose(_STOP),
     "darker": lambda app: app.expose(-_STOP),
     "picture_alone": lambda app: app.toggle_panels(),
@@ -73,7 +74,7 @@ def draw_keys(app: App) -> None:
     if held:
         right, up, forward = (float(sum(parts)) for parts in zip(*held, strict=True))
         app.walk(right, up, forward, seconds)
-    for action, act in _COMMANDS.items():
+    for action, act in COMMANDS.items():
         if _is_pressed(app, action):
             act(app)
             app.is_deaf = "ctrl" in modifiers()  # keys released after Ctrl move nothing

@@ -8,7 +8,7 @@ Move = Literal["forward", "back", "left", "right", "up", "down"]
 Action = (
     Move
     | Literal["home", "frame", "pause", "undo", "redo"]
-    | Literal["fit", "one_to_one", "inspect", "paths", "panel", "keys"]
+    | Literal["fit", "one_to_one", "inspect", "paths", "panel", "keys", "palette"]
     | Literal["brighter", "darker", "picture_alone"]
     | Literal["duplicate", "delete", "open", "save_scene", "save_scene_as", "save", "quit"]
 )
@@ -33,6 +33,7 @@ DEFAULTS: Bindings = {
     "picture_alone": ("n",),
     "panel": ("f6",),
     "keys": ("f1",),
+    "palette": ("ctrl+k",),
     "undo": ("ctrl+z",),
     "redo": ("ctrl+y", "ctrl+shift+z"),
     "duplicate": ("ctrl+d",),
@@ -62,6 +63,7 @@ MEANING: dict[Action, str] = {
     "picture_alone": "hide the panels, and show them",
     "panel": "move in the panel by keys, and back",
     "keys": "show these keys",
+    "palette": "find a control or a command",
     "undo": "undo",
     "redo": "redo",
     "duplicate": "duplicate the selection",

@@ -6,5 +6,6 @@ Modules, each importing only what stands above it:
 - steady_widget: keeps the last used widget in place
 - cost_badges: badges that show the cost of an edit
 - reset: a double click that sets the default
+- finder: rows of the panel by name
 - fields: one widget for each kind of field
 """

@@ -11,6 +11,7 @@ from glrt.settings import Cost
 from glrt.view.controls import MEANING, Control
 from glrt.view.state.explanations import explanation_of
 from glrt.view.widgets.cost_badges import tag, tags, tags_start
+from glrt.view.widgets.finder import FINDER
 from glrt.view.widgets.reset import default_text, reset_or
 from glrt.view.widgets.slider_text import Slider, share_of, text_next_to_grip
 from glrt.view.widgets.steady_widget import ANCHOR
@@ -33,9 +34,13 @@ def edited(control: Control, value: Any, name: str = "") -> Any:
     `name` distinguishes controls with the same label, such as those of two lamps.
     """
     label = f"{control.label}##{name}" if name else control.label
+    if FINDER.lists(label, control, value):
+        return None
     least = hello_imgui.em_size(WORDS if control.kind == "choice" else LEAST)
     is_narrow = control.kind != "switch" and _room_next_to(control.label) < least
+    corner = imgui.get_cursor_screen_pos()
     changed, new = (_drawn_below if is_narrow else _drawn_next_to)(control, label, value)
+    FINDER.mark(label, corner)
     return _clamped(control, new) if changed else None
 
 
@@ -73,9 +78,12 @@ def _clipped(draw: Callable[[], Drawn]) -> Drawn:
 
 def button(label: str, is_enabled: bool = True) -> bool:
     """Draw a button, grey unless it is enabled; return whether it was pressed."""
+    if FINDER.lists(label):
+        return False
     imgui.begin_disabled(not is_enabled)
     pressed = imgui.button(label)
     ANCHOR.note()
+    FINDER.mark(label)
     imgui.end_disabled()
     return pressed
 

@@ -1,0 +1,87 @@
+"""First line of a recovery file: the scene that it belongs to, and when it was saved."""
+
+import json
+import os
+import sys
+from dataclasses import asdict, dataclass
+from datetime import datetime
+from pathlib import Path
+
+from glrt.core.errors import SceneError
+from glrt.core.files import check_regular
+from glrt.image.sources import STANDARD_INPUT
+from glrt.scene.scenefile.catalog import file_of, find
+
+_MARK = "# glrt recovery "
+_LONGEST = 1 << 16  # bytes of the first line
+
+
+@dataclass(frozen=True)
+class Header:
+    """Which scene the edits belong to, when they were saved, and files that the scene lacks.
+
+    `saved` is in seconds since 1970. `edits` counts steps of undo since the scene was saved or
+    opened; None if that is unknown. `models` are the paths of models that were added.
+    """
+
+    source: str
+    saved: float
+    edits: int | None = None
+    models: tuple[str, ...] = ()
+
+    def line(self) -> str:
+        """Return the line, a comment of TOML."""
+        return f"{_MARK}{json.dumps(asdict(self))}\n"
+
+    def told(self, now: float) -> str:
+        """Return what was not saved, as "2 edits of 14:03 were not saved."; `now` as `saved`."""
+        then, today = datetime.fromtimestamp(self.saved), datetime.fromtimestamp(now)
+        is_today = then.date() == today.date()
+        at = f"{then:%H:%M}" if is_today else f"{then.day} {then:%B %Y, %H:%M}"
+        count = f"{self.edits} edit{'s' * (self.edits != 1)}" if self.edits else "Edits"
+        return f"{count} of {at} {'was' if self.edits == 1 else 'were'} not saved."
+
+
+def header_of(file: Path) -> Header | None:
+    """Return the header of a recovery file; None if it has none, or cannot be read."""
+    try:
+        check_regular(file)
+        with file.open("rb") as content:
+            line = content.readline(_LONGEST).decode("utf-8")
+        return _parsed(line) if line.startswith(_MARK) else None
+    except (OSError, ValueError, TypeError, LookupError, OverflowError, RecursionError):
+        return None
+
+
+def _parsed(line: str) -> Header:
+    given = json.loads(line.removeprefix(_MARK))
+    edits, saved = given["edits"], float(given["saved"])
+    datetime.fromtimestamp(saved)  # a time that can be shown
+    count = edits if isinstance(edits, int) and edits > 0 else None
+    return Header(str(given["source"]), saved, count, tuple(map(str, given["models"])))
+
+
+def key_of(source: str) -> str:
+    """Return a name of a scene by which another window knows it; "" if there is none.
+
+    It is the absolute path of a file, or the name of a scene that comes with glrt.
+    """
+    if source in ("", STANDARD_INPUT):
+        return ""
+    try:
+        path = find(source)
+    except SceneError:
+        return ""
+    is_name = not Path(source).is_file() and path == file_of(source)
+    return source if is_name else str(path.resolve())
+
+
+def recovery_folder() -> Path:
+    """Return the folder of recovery files, in the user's folder for states of programs."""
+    if sys.platform == "win32":
+        base = Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local")
+    elif sys.platform == "darwin":
+        base = Path.home() / "Library" / "Application Support"
+    else:
+        base = Path(os.environ.get("XDG_STATE_HOME") or Path.home() / ".local" / "state")
+    return base / "glrt" / "recovery"
