@@ -97,12 +97,14 @@ def _begun(scene: Scene) -> Scene:
 def files_read(recipe: Recipe, picture: Path, rules: FileRules = STRICT) -> Recipe:
     """The recipe of a picture, with the content of the files that it names.
 
-    Raises `SceneError` for a file that is missing, or has changed since the picture was made.
+    Raises `SceneError` for a file that is missing, or has changed since the picture was made,
+    and `UsageError` for rules with a variant, which a picture keeps.
     """
 
     def read(scene: Scene) -> Scene:
         return _with_files(scene, picture.absolute().parent, rules, shown(picture), recipe.assets)
 
+    _check_variant(picture, rules)
     if not files_of(recipe.scene):
         return recipe
     update: dict[str, Any] = {"scene": read(recipe.scene)}

@@ -36,6 +36,7 @@ def test_a_picture_of_a_model_is_rendered_again(folder: Path) -> None:
     assert main(["render", "thing.glb", "-o", "a.exr", "-o", "a.npy", *SMALL]) == 0
     assert main(["render", "a.exr", "-o", "b.npy", "--quiet"]) == 0
     assert (folder / "a.npy").read_bytes() == (folder / "b.npy").read_bytes()
+    assert main(["render", "--resume", "a.exr", "-o", "c.npy", "--variant", "x"]) == 2
     (folder / "thing.glb").write_bytes(textured_square(emissiveFactor=[1, 1, 1]).glb())
     assert main(["render", "a.exr", "-o", "c.npy", "--quiet"]) == 2
     assert not (folder / "c.npy").exists()
