@@ -4,6 +4,7 @@ import argparse
 import sys
 from pathlib import Path
 
+from glrt.cli.options import add_variant
 from glrt.core.errors import UsageError
 from glrt.core.text import counted, escaped
 from glrt.image.sources import load
@@ -32,6 +33,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="read files outside of the folder of the model too: only for models that you trust",
     )
+    add_variant(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -40,7 +42,8 @@ def run(arguments: argparse.Namespace) -> int:
         raise UsageError(
             f"{arguments.model} is no model: its name must end in .glb, .gltf, .obj, .ply or .stl."
         )
-    scene = load(find(arguments.model), allow_outside=arguments.allow_outside)
+    rules = {"allow_outside": arguments.allow_outside, "variant": arguments.variant}
+    scene = load(find(arguments.model), **rules)
     scene.save(arguments.scene)
     for text in cautions(scene, settings_for(scene.render)):
         print(f"glrt: caution: {text}", file=sys.stderr)

@@ -117,12 +117,23 @@ def add_files(parser: argparse.ArgumentParser) -> None:
         help="strict: a picture takes only the files that it was made with; changed: what is there "
         "now (default: %(default)s)",
     )
+    add_variant(group)
+
+
+def add_variant(parser: argparse._ActionsContainer) -> None:
+    """Add `--variant`, for commands that take a model."""
+    parser.add_argument(
+        "--variant",
+        metavar="NAME",
+        help="show a model with this variant of its materials (default: without a variant)",
+    )
 
 
 def file_rules(arguments: argparse.Namespace) -> FileRules:
     """Return the rules that the options of `add_files` set."""
     is_changed = arguments.assets == "changed"
-    return FileRules(arguments.allow_outside, arguments.assets_from, is_changed)
+    folder = arguments.assets_from
+    return FileRules(arguments.allow_outside, folder, is_changed, arguments.variant)
 
 
 def add_settings(parser: argparse.ArgumentParser, has_auto: bool = False) -> None:

@@ -31,6 +31,7 @@ class FileRules(NamedTuple):
     allow_outside: bool = False  # files outside the folder of the scene
     folder: Path | None = None  # folder of the files, if it is not that of the scene or picture
     accept_changed: bool = False  # files that changed since a picture was made with them
+    variant: str | None = None  # of the materials of a model
 
 
 STRICT = FileRules()
@@ -42,6 +43,7 @@ def load(
     allow_outside: bool = False,
     assets_from: str | Path | None = None,
     accept_changed: bool = False,
+    variant: str | None = None,
 ) -> Scene:
     """Load the scene of a TOML file, of a name in the folder `scenes`, of a model or of a picture.
 
@@ -49,11 +51,13 @@ def load(
     `methods/glass`. A model is a glTF, OBJ, PLY or STL file. `-` is a TOML file on standard input.
     Files that the scene names are read from its folder, from that of the picture, or from
     `assets_from`; files outside of it need `allow_outside`. Files of a picture must be unchanged
-    since it was made, unless `accept_changed`. Raises `SceneError` with one paragraph if there is
-    no such scene or it is wrong, `UsageError` for a picture without recipe.
+    since it was made, unless `accept_changed`. `variant` names a variant of the materials of a glTF
+    file that is given as a model. Raises `SceneError` with one paragraph if there is
+    no such scene or it is wrong, `UsageError` for a picture without recipe, and for a `variant` of
+    anything else.
     """
     folder = None if assets_from is None else Path(assets_from)
-    return load_recipe(source, FileRules(allow_outside, folder, accept_changed))[0]
+    return load_recipe(source, FileRules(allow_outside, folder, accept_changed, variant))[0]
 
 
 def load_recipe(source: str | Path, rules: FileRules = STRICT) -> tuple[Scene, Settings | None]:
@@ -61,6 +65,7 @@ def load_recipe(source: str | Path, rules: FileRules = STRICT) -> tuple[Scene, S
 
     The settings are None for a scene file, whose settings are in `scene.render`.
     """
+    _check_variant(source, rules)
     recipe = recipe_of(source)
     if recipe is not None:
         return files_read(recipe, find(source), rules).scene, recipe.taken
@@ -74,6 +79,15 @@ def load_recipe(source: str | Path, rules: FileRules = STRICT) -> tuple[Scene, S
     return _begun(_with_files(scene, folder, rules, shown(source))), None
 
 
+def _check_variant(source: str | Path, rules: FileRules) -> None:
+    if rules.variant is None or (not _is_standard_input(source) and is_model(find(source))):
+        return
+    raise UsageError(
+        f"{shown(source)} is no model, and only a model may be given with a variant of its "
+        "materials. In a scene file, write `variant` in the mesh object."
+    )
+
+
 def _begun(scene: Scene) -> Scene:
     """The scene with the values of frame 0 of its animation."""
     start = scene.at_frame(0)
@@ -83,12 +97,14 @@ def _begun(scene: Scene) -> Scene:
 def files_read(recipe: Recipe, picture: Path, rules: FileRules = STRICT) -> Recipe:
     """The recipe of a picture, with the content of the files that it names.
 
-    Raises `SceneError` for a file that is missing, or has changed since the picture was made.
+    Raises `SceneError` for a file that is missing, or has changed since the picture was made,
+    and `UsageError` for rules with a variant, which a picture keeps.
     """
 
     def read(scene: Scene) -> Scene:
         return _with_files(scene, picture.absolute().parent, rules, shown(picture), recipe.assets)
 
+    _check_variant(picture, rules)
     if not files_of(recipe.scene):
         return recipe
     update: dict[str, Any] = {"scene": read(recipe.scene)}
@@ -99,7 +115,7 @@ def files_read(recipe: Recipe, picture: Path, rules: FileRules = STRICT) -> Reci
 
 def _of_model(path: Path, rules: FileRules, source: str) -> Scene:
     base = path.absolute().parent
-    return model_scene(path, AssetFolder(base, rules.allow_outside), source)
+    return model_scene(path, AssetFolder(base, rules.allow_outside), source, rules.variant)
 
 
 def _with_files(

@@ -36,11 +36,12 @@ def is_model(path: Path) -> bool:
     return path.suffix.lower() in FORMATS
 
 
-def model_scene(path: Path, folder: AssetFolder, source: str) -> Scene:
+def model_scene(path: Path, folder: AssetFolder, source: str, variant: str | None = None) -> Scene:
     """Return the scene of a model with the content of its files; messages call it `source`.
 
     Without a camera, the model is seen from three quarters above. It stands in a studio if the file
-    has no lights and its own emission does not light it. Raises `SceneError`.
+    has no lights and its own emission does not light it. `variant` names one of its materials'
+    variants. Raises `SceneError`.
     """
     reader = AssetReader(folder)
     name = text_of(path.name)
@@ -51,7 +52,7 @@ def model_scene(path: Path, folder: AssetFolder, source: str) -> Scene:
     tables: Table = {
         "title": name,
         "materials": {},
-        "objects": [{"shape": "mesh", "file": file, "material": "", "smooth": "auto"}],
+        "objects": [{"shape": "mesh", "file": file, "variant": variant, "smooth": "auto"}],
         **_view(file.triangles),
     }
     if poses := file.triangles.poses:

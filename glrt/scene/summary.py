@@ -14,11 +14,12 @@ MOST_NAMED = 8  # names of a sort
 
 
 def summary(scene: Scene) -> list[str]:
-    """Return lines for objects by kind, materials by type, textures, media and light groups."""
+    """Return lines for objects by kind, materials by type, textures, variants and lights."""
     return [
         f"objects    {', '.join(_objects(scene)) or 'none'}",
         f"materials  {'; '.join(_materials(scene)) or 'none'}",
         *_textures(scene),
+        *_variants(scene),
         *([f"media      {few(scene.media)}"] if scene.media else []),
         f"lights     {few(_lights(scene)) or 'none'}",
         *_animation(scene),
@@ -62,6 +63,14 @@ def _textures(scene: Scene) -> Iterator[str]:
     size = sum(each.nbytes for each in texels) / 2**20
     of_images = f"{counted(len(images), 'image')} of {size:.3g} MiB"
     yield f"textures   {len(textures)}, {of_images}"
+
+
+def _variants(scene: Scene) -> Iterator[str]:
+    """Yield the variants of materials that each model file offers."""
+    meshes = [thing for thing in scene.objects if isinstance(thing, Mesh)]
+    for file in dict.fromkeys(mesh.file for mesh in meshes):
+        if file.triangles is not None and (names := file.triangles.variants):
+            yield f"variants   {file.file}: {few(names)}"
 
 
 def _lights(scene: Scene) -> Iterator[str]:

@@ -36,6 +36,7 @@ def test_a_picture_of_a_model_is_rendered_again(folder: Path) -> None:
     assert main(["render", "thing.glb", "-o", "a.exr", "-o", "a.npy", *SMALL]) == 0
     assert main(["render", "a.exr", "-o", "b.npy", "--quiet"]) == 0
     assert (folder / "a.npy").read_bytes() == (folder / "b.npy").read_bytes()
+    assert main(["render", "--resume", "a.exr", "-o", "c.npy", "--variant", "x"]) == 2
     (folder / "thing.glb").write_bytes(textured_square(emissiveFactor=[1, 1, 1]).glb())
     assert main(["render", "a.exr", "-o", "c.npy", "--quiet"]) == 2
     assert not (folder / "c.npy").exists()
@@ -56,7 +57,21 @@ def test_a_model_is_inspected(folder: Path, capsys: pytest.CaptureFixture[str]) 
     assert "1 image" in capsys.readouterr().out
 
 
+def test_a_variant_is_imported(folder: Path) -> None:
+    builder = textured_square()
+    key = "KHR_materials_variants"
+    red = builder.add("materials", {"name": "red"})
+    builder.json["extensions"] = {key: {"variants": [{"name": "evening"}]}}
+    mappings = {"mappings": [{"material": red, "variants": [0]}]}
+    builder.json["meshes"][0]["primitives"][0]["extensions"] = {key: mappings}
+    (folder / "thing.glb").write_bytes(builder.glb())
+    assert main(["import", "thing.glb", "--variant", "evening", "-o", "scene.toml"]) == 0
+    assert 'variant = "evening"' in (folder / "scene.toml").read_text()
+
+
 REFUSED = {
+    "no such variant": (["render", "thing.glb", "--variant", "a", "-o", "a.png"], "no variants"),
+    "a variant of a scene": (["inspect", "cornell", "--variant", "a"], "cornell is no model"),
     "no model": (["import", "scene.toml", "-o", "a.toml"], "scene.toml is no model"),
     "no such model": (["import", "none.glb", "-o", "a.toml"], "there is no file 'none.glb'"),
     "no scene file": (["import", "thing.glb", "-o", "a.png"], "must end in .toml"),

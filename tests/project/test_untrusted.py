@@ -233,6 +233,7 @@ def test_the_keys_of_a_scene_that_are_paths_are_known() -> None:
             "part",
             "target",
             "animation",
+            "variant",
         ),
     }
 

@@ -115,6 +115,9 @@ def of_gltf(shape: Mesh, reader: AssetReader, where: str) -> Found:
     unread += document.unknown_extensions
     if document.items("animations") and shape.time is None:
         unread.append("animations, which glrt film shows")
+    if shape.variant is None:
+        names = shape.triangles_of_file.variants
+        unread += [f"variant {quoted(name)} (--variant)" for name in names]
     return shape.file.with_libraries({}, tuple(unread)), own
 
 

@@ -8,7 +8,7 @@ from glrt.core.errors import SceneError
 from glrt.core.text import counted, quoted, unknown
 from glrt.scene.files.assets import AssetReader
 from glrt.scene.files.named_meshes import MeshFile
-from glrt.scene.loading.file_materials import REMEDY, of_gltf, of_mtl
+from glrt.scene.loading.file_materials import REMEDY, Found, of_gltf, of_mtl
 from glrt.scene.materials.kinds import Material
 from glrt.scene.meshes.triangle_meshes import NO_MATERIAL
 from glrt.scene.model_files.mesh_formats import GLTF
@@ -61,27 +61,41 @@ class _Division:
     reader: AssetReader
     materials: dict[str, Material]
     rest: Material | None
-    files: dict[MeshFile, tuple[MeshFile, dict[str, Material]]] = field(default_factory=dict)
+    files: dict[tuple[MeshFile, str | None], Found] = field(default_factory=dict)
+    own: dict[str, Material] = field(default_factory=dict)  # materials of files, by their names
 
     def parts(self, shape: Mesh, where: str) -> list[Mesh]:
         """Return a mesh for each material, in the order in which the file uses them."""
         names = _names(shape, where, self.rest is not None)
-        if shape.file not in self.files:
-            self.files[shape.file] = (
+        key = shape.file, shape.variant
+        if key not in self.files:
+            self.files[key] = (
                 of_gltf(shape, self.reader, where)
                 if _is_gltf(shape)
                 else of_mtl(shape, self.reader, where, self.rest)
             )
-        file, own = self.files[shape.file]
+        file, own = self.files[key]
+        materials = dict[str, str]()
         for name in names:
             if name not in own:
                 advice = unknown("material", name, sorted(own), "Its MTL files have")
                 raise SceneError(f"{where}: {file.file}: {advice} Or {REMEDY}.")
-            self.materials.setdefault(f"{file.file}:{name}", own[name])
+            materials[name] = self._named(f"{file.file}:{name}", own[name], shape.variant)
         return [
-            shape.model_copy(update={"file": file, "part": name, "material": f"{file.file}:{name}"})
-            for name in names
+            shape.model_copy(update={"file": file, "part": name, "material": material})
+            for name, material in materials.items()
         ]
+
+    def _named(self, name: str, material: Material, variant: str | None) -> str:
+        """Return the name in the scene of a material of a file: another one where variants differ.
+
+        They differ in glass, which is thin on triangles that enclose nothing.
+        """
+        if self.own.get(name, material) != material:
+            name += f" ({variant or 'usual'})"
+        self.own[name] = material
+        self.materials.setdefault(name, material)
+        return name
 
 
 def _is_gltf(shape: Mesh) -> bool:

@@ -30,6 +30,7 @@ class MeshArrays(NamedTuple):
     uv: Any = None
     groups: Ints | None = None
     tangents: Any = None
+    sorts: Ints | None = None
 
 
 def checked(given: MeshArrays) -> TriangleMesh:
@@ -40,7 +41,7 @@ def checked(given: MeshArrays) -> TriangleMesh:
 
     Raises ValueError, which says what is wrong with which row.
     """
-    vertices, faces, normals, colors, names, labels, uv, groups, tangents = given
+    vertices, faces, normals, colors, names, labels, uv, groups, tangents, sorts = given
     points = _table(vertices, "vertices", np.float64)
     triangles = _table(faces, "faces", np.int64)
     turned = None if normals is None else _table(normals, "normals", np.float64)
@@ -65,8 +66,10 @@ def checked(given: MeshArrays) -> TriangleMesh:
     turned, dyes, sets, along = (None if rows is None else rows[used] for rows in all_rows)
     labels = None if labels is None else labels[whole]
     groups = None if groups is None else groups[whole]
+    sorts = None if sorts is None else sorts[whole]
     own = points[used], rank[kept], turned, dyes
-    return TriangleMesh(*own, names, labels, sets, groups, along, repeated=int(again.sum()))
+    count = int(again.sum())
+    return TriangleMesh(*own, names, labels, sets, groups, along, sorts, repeated=count)
 
 
 def of_file(given: MeshArrays, left_out: Sequence[str] = ()) -> TriangleMesh:

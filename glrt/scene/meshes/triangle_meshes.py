@@ -1,14 +1,14 @@
 """Triangle meshes as arrays: with normals, and whether they enclose a volume."""
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from glrt.core.text import counted
+from glrt.core.text import counted, unknown
 from glrt.scene.meshes.creases import by_angle, by_groups
 from glrt.scene.meshes.vertex_means import mean_normals, mean_tangents, places
 
@@ -51,6 +51,8 @@ class TriangleMesh:
     uv: Floats | None = None  # (v, 4): u and v of two sets of texture coordinates; None without
     groups: Ints | None = None  # (n,): smoothing groups, 0 for flat; None for a format without them
     tangents: Floats | None = None  # (v, 3), along which the first u grows; None if not given
+    sorts: Ints | None = None  # (n,): triangles of one sort share their materials in all variants
+    variants: Mapping[str, tuple[str, ...]] = field(default_factory=dict)  # a material of each sort
     poses: Poses | None = None  # at moments of the file's animations; None if it has none
     repeated: int = 0  # triangles that were left out, since another one had the same corners
     unread: tuple[str, ...] = ()  # parts of the file that were left out, in words
@@ -136,6 +138,25 @@ class TriangleMesh:
         own = self.vertices[used], faces.reshape(-1, 3), normals[used], colors
         groups = None if self.groups is None else self.groups[kept]
         return TriangleMesh(*own, uv=uv, groups=groups, tangents=tangents).outward
+
+    def varied(self, name: str) -> "TriangleMesh":
+        """Return the mesh with the materials of a variant; ValueError if the file lacks it."""
+        if not self.variants:
+            raise ValueError("it has no variants of its materials: leave `variant` out")
+        if name not in self.variants:
+            raise ValueError(unknown("variant", name, self.variants, "The file has"))
+        return self._varied(name)
+
+    @cached_property
+    def _varied(self) -> Callable[[str], "TriangleMesh"]:
+        return lru_cache(MOST_KEPT)(self._with_variant)
+
+    def _with_variant(self, name: str) -> "TriangleMesh":
+        assert self.sorts is not None
+        materials = self.variants[name]
+        names = tuple(dict.fromkeys(materials))
+        labels = np.array([names.index(material) for material in materials])[self.sorts]
+        return replace(self, names=names, labels=labels)
 
     def creased(self, degrees: float) -> "TriangleMesh":
         """Return the mesh with normals as its format means them, and vertices divided at creases.

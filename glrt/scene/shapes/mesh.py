@@ -68,6 +68,11 @@ class Mesh(Sided):
         None,
         description="name of that animation, or its number from 0; default: the first that moves",
     )
+    variant: Name | None = Field(
+        None,
+        description="name of a variant of the materials of a glTF file, or its number from 0 where "
+        "it has no name; default: the materials without a variant",
+    )
     smooth: Annotated[Smooth, Editable(Cost.RECOMPILE)] = Field(
         True,
         description="whether normals are interpolated, those of the file or, where it has none, "
@@ -103,6 +108,7 @@ class Mesh(Sided):
             matrix: Sequence[Sequence[Number]] | Array | None = None,
             time: Number | None = None,
             animation: str | None = None,
+            variant: str | None = None,
             smooth: Smooth = True,
             crease: Number = 40.0,
             material: str = "",
@@ -143,13 +149,15 @@ class Mesh(Sided):
             if whole.poses is None:
                 raise ValueError("it has no animation: leave `time` out")
             whole = whole.poses.at(self.animation, self.time)
+        if self.variant is not None:
+            whole = whole.varied(self.variant)
         return whole.creased(self.crease) if self.smooth == "auto" else whole
 
     @property
     def form(self) -> tuple[object, ...]:
         """The triangles by name: meshes of one form share them, wherever they stand."""
         crease = self.crease if self.smooth == "auto" else None
-        return self.file.sha256, self.part, crease, self.animation, self.time
+        return self.file.sha256, self.part, self.variant, crease, self.animation, self.time
 
     @property
     def linear(self) -> Array:

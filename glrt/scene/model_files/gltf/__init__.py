@@ -7,6 +7,7 @@ Modules, each importing only what stands above it:
 - draco: meshes compressed by Draco
 - attributes: vertex attributes of primitives
 - nodes: placements of meshes, cameras and lights
+- variants: variants of materials
 - primitives: triangles of primitives
 - animations: animations of nodes, skins and morph targets
 - images: embedded and external images

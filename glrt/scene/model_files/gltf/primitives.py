@@ -1,6 +1,7 @@
 """The triangles of the meshes of a glTF file, where its nodes place them."""
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,6 +12,7 @@ from glrt.scene.model_files.gltf.accessors import Floats, Ints, floats
 from glrt.scene.model_files.gltf.attributes import Attributes, weights_of
 from glrt.scene.model_files.gltf.document import Document
 from glrt.scene.model_files.gltf.nodes import Matrix, Placed, placed_nodes
+from glrt.scene.model_files.gltf.variants import Choices, choices_of, variant_names
 
 
 def skin_matrices(
@@ -62,7 +64,7 @@ class _Part(NamedTuple):
     colors: Floats | None
     uv: Floats | None  # (v, 4): both sets
     tangents: Floats | None  # (v, 3)
-    material: str
+    materials: Choices = Choices(None, ())
 
 
 def mesh_of(document: Document, changes: Mapping[int, Mapping[str, Any]] = {}) -> TriangleMesh:
@@ -70,13 +72,13 @@ def mesh_of(document: Document, changes: Mapping[int, Mapping[str, Any]] = {}) -
 
     `changes` are other values of nodes by number, as an animation gives them.
     """
-    names, parts, count = material_names(document), list[_Part](), 0
+    variants, parts, count = variant_names(document), list[_Part](), 0
     nodes = list(placed_nodes(document, changes))
     poses = {placed.number: placed.matrix for placed in nodes}
     for placed in nodes:
         if "mesh" not in placed.node:
             continue
-        for part in _parts(document, placed, names, poses):
+        for part in _parts(document, placed, len(variants), poses):
             parts.append(part)
             count += len(part.faces)
             if count > MOST_TRIANGLES:
@@ -86,21 +88,28 @@ def mesh_of(document: Document, changes: Mapping[int, Mapping[str, Any]] = {}) -
     counts = [len(part.points) for part in parts]
     firsts = np.cumsum([0, *counts[:-1]])
     faces = [part.faces + first for part, first in zip(parts, firsts, strict=True)]
-    used = list(dict.fromkeys(part.material for part in parts))
-    labels = [np.full(len(part.faces), used.index(part.material)) for part in parts]
-    return of_file(
+    kinds = list(dict.fromkeys(part.materials for part in parts))
+    sorts = [np.full(len(part.faces), kinds.index(part.materials)) for part in parts]
+    names = [*material_names(document), NO_MATERIAL]  # the last one for None
+    looks = [[names[-1 if k is None else k] for k in (it.usual, *it.varied)] for it in kinds]
+    usual, *varied = map(tuple, zip(*looks, strict=True))
+    used = list(dict.fromkeys(usual))
+    labels = np.array([used.index(name) for name in usual])
+    found = of_file(
         MeshArrays(
             np.concatenate([part.points for part in parts]),
             np.concatenate(faces),
             np.concatenate([part.normals for part in parts]),
             _joined([part.colors for part in parts], counts, 3, 1.0),
             tuple(used),
-            np.concatenate(labels),
+            labels[np.concatenate(sorts)],
             _joined([part.uv for part in parts], counts, 4, 0.0),
             None,
             _joined([part.tangents for part in parts], counts, 3, 0.0),
+            np.concatenate(sorts),
         )
     )
+    return replace(found, variants=dict(zip(variants, varied, strict=True)))
 
 
 def material_names(document: Document) -> list[str]:
@@ -133,7 +142,7 @@ def _joined(parts: list[Floats | None], counts: list[int], width: int, rest: flo
 
 
 def _parts(
-    document: Document, placed: Placed, names: list[str], poses: Mapping[int, Matrix]
+    document: Document, placed: Placed, variants: int, poses: Mapping[int, Matrix]
 ) -> Iterator[_Part]:
     index = placed.node["mesh"]
     mesh = document.item("meshes", index, f"nodes[{placed.number}].mesh")
@@ -150,7 +159,7 @@ def _parts(
         matrices = placed.matrix[None] if posed is None else posed
         found = _part(rows, table.get("mode", _TRIANGLES), here, matrices)
         if found:
-            yield found._replace(material=_material(document, table, names, here))
+            yield found._replace(materials=choices_of(document, table, variants, here))
 
 
 def _part(own: Attributes, mode: Any, here: str, matrices: Floats) -> _Part | None:
@@ -179,12 +188,12 @@ def _part(own: Attributes, mode: Any, here: str, matrices: Floats) -> _Part | No
         facing = across.repeat(3, axis=0)
         columns, uv = (None if rows is None else rows[at] for rows in (columns, uv))
         order = np.arange(len(at)).reshape(-1, 3)
-        return _Part(moved[at], order, facing, columns, uv, None, "")  # without tangents, by glTF
+        return _Part(moved[at], order, facing, columns, uv, None)  # without tangents, by glTF
     turned = (_for_normals(linear) @ normals[:, :, None])[:, :, 0]
     tangents = own.rows("TANGENT", (4,))
     if tangents is not None:  # their sign is that of the texture coordinates
         tangents = (linear @ tangents[:, :3, None])[:, :, 0]
-    return _Part(moved, faces, turned, columns, uv, tangents, "")
+    return _Part(moved, faces, turned, columns, uv, tangents)
 
 
 def _for_normals(linear: Floats) -> Floats:
@@ -196,14 +205,6 @@ def _for_normals(linear: Floats) -> Floats:
     scale = np.divide(sign, largest, out=np.zeros_like(sign), where=largest > 0)
     turned: Floats = cofactors * scale[:, None, None]
     return turned
-
-
-def _material(document: Document, primitive: dict[str, Any], names: list[str], here: str) -> str:
-    if "material" not in primitive:
-        return NO_MATERIAL
-    document.item("materials", primitive["material"], f"{here}.material")
-    index: int = primitive["material"]
-    return names[index]
 
 
 def _faces(own: Attributes, mode: Any, count: int, here: str) -> Ints:
