@@ -228,7 +228,7 @@ def test_a_kernel_has_nothing_that_its_model_cannot_see(method: str) -> None:
     assert not needs.weight_both
 
 
-@pytest.mark.slow_cases("cook", "whitted_tree")
+@pytest.mark.slow_cases("blinn", "cook", "whitted_tree")
 @pytest.mark.parametrize("method", MODELS)
 def test_models_give_the_same_bits_in_every_tier(context: Context, method: str) -> None:
     scene = everything()
@@ -241,7 +241,7 @@ def test_models_give_the_same_bits_in_every_tier(context: Context, method: str) 
     assert pictures[0].mean() > 0.05
 
 
-@pytest.mark.slow_cases("whitted", "cook", "whitted_tree")
+@pytest.mark.slow_cases("blinn", "whitted", "cook", "whitted_tree")
 @pytest.mark.parametrize("method", MODELS)
 def test_models_render_the_scenes_that_come_with_glrt(context: Context, method: str) -> None:
     for name in ("cornell", "metals", "lens"):

@@ -63,7 +63,9 @@ REFUSED = [pair for pair in pairs() if not works(*pair)]
     "reuse of points---error",
 )
 @pytest.mark.slow_cases("*--caustics*", "a merged picture-*", "*terms of light*")
-@pytest.mark.slow_cases("light by layers---*", "a classic lighting model---*")
+@pytest.mark.slow_cases(
+    "light by layers---*", "a classic lighting model---*", "the independent*---*"
+)
 @pytest.mark.parametrize(
     ("one", "other"),
     [

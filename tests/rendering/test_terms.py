@@ -81,6 +81,7 @@ def balls(number: int) -> Scene:
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", range(len(KINDS)), ids=KINDS)
 def test_light_belongs_to_what_scatters_it_first(context: Context, number: int) -> None:
     """Seen head-on, by scattering alone.

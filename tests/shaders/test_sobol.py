@@ -61,6 +61,7 @@ def is_net(points: Array, each: int = 1) -> bool:
     return True
 
 
+@pytest.mark.slow_cases("3-*", "4-*")
 @pytest.mark.parametrize("block", BLOCKS)
 @pytest.mark.parametrize("skipped", range(6))
 def test_a_block_fills_the_square_evenly(call_glsl: CallGlsl, skipped: int, block: int) -> None:
