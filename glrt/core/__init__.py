@@ -5,7 +5,7 @@ Modules, each importing only what stands above it:
 - version: version of glrt
 - text: words and numbers in messages
 - errors: error classes, with their exit codes
-- resources: folders of shaders, scenes and caches
+- resources: folders of shaders and scenes, and of the user
 - files: atomic writes: a file is complete or absent
 - memo: cache of results by the identity of the arguments
 """

@@ -1,14 +1,13 @@
 """First line of a recovery file: the scene that it belongs to, and when it was saved."""
 
 import json
-import os
-import sys
 from dataclasses import asdict, dataclass
 from datetime import datetime
 from pathlib import Path
 
 from glrt.core.errors import SceneError
 from glrt.core.files import check_regular
+from glrt.core.resources import state_folder
 from glrt.image.sources import STANDARD_INPUT
 from glrt.scene.scenefile.catalog import file_of, find
 
@@ -78,10 +77,4 @@ def key_of(source: str) -> str:
 
 def recovery_folder() -> Path:
     """Return the folder of recovery files, in the user's folder for states of programs."""
-    if sys.platform == "win32":
-        base = Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local")
-    elif sys.platform == "darwin":
-        base = Path.home() / "Library" / "Application Support"
-    else:
-        base = Path(os.environ.get("XDG_STATE_HOME") or Path.home() / ".local" / "state")
-    return base / "glrt" / "recovery"
+    return state_folder() / "recovery"

@@ -1,8 +1,6 @@
 """Preferences of the window, kept in a file of the user."""
 
 import json
-import os
-import sys
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -10,6 +8,7 @@ from pydantic import Field, ValidationError, field_validator
 
 from glrt.core.errors import RenderError
 from glrt.core.files import reason, write_text
+from glrt.core.resources import config_folder
 from glrt.rendering.history.temporal import Mode as Temporal
 from glrt.rendering.history.wrls import Predictor
 from glrt.settings import Cost, Editable, Frozen
@@ -95,13 +94,7 @@ class Preferences(Frozen):
 
 def preferences_file() -> Path:
     """Return the file of the preferences, in the user's configuration folder of the system."""
-    if sys.platform == "win32":
-        base = Path(os.environ.get("APPDATA") or Path.home() / "AppData" / "Roaming")
-    elif sys.platform == "darwin":
-        base = Path.home() / "Library" / "Application Support"
-    else:
-        base = Path(os.environ.get("XDG_CONFIG_HOME") or Path.home() / ".config")
-    return base / "glrt" / "view.json"
+    return config_folder() / "view.json"
 
 
 def load_preferences(file: Path) -> tuple[Preferences, str]:
