@@ -30,6 +30,20 @@ def test_light_is_weighed_without_a_restart(session: Session) -> None:
     assert session.weights != (ONE,)
 
 
+@pytest.mark.slow
+def test_light_restarts_while_terms_of_light_are_shown(session: Session) -> None:
+    """Weights do not reach the terms; the label says so."""
+    session.aovs = ("direct",)
+    start(session)
+    assert cost_of_light(session, "lamp") is Cost.RESTART
+    session.edit(with_lights(session.scene, {"lamp": 0.5}))
+    session.advance(0.01)
+    assert session.last_cost is Cost.RESTART
+    assert session.weights == (ONE,)
+    session.by_length = True
+    assert reach_of_bounces(session) is None
+
+
 def test_bounces_are_weighed_while_their_control_is_open(session: Session) -> None:
     start(session)
     session.by_length = True

@@ -18,7 +18,7 @@ def cost_of_light(session: Session, group: str) -> Cost:
     """Return the cost of another intensity of a light group."""
     layers, _ = _lamps(session.scene)
     shares = [other for other in layers if layers[other] == layers.get(group)]
-    if len(shares) == 1 and session.layering == "groups":
+    if len(shares) == 1 and session.weighed == "groups":
         return Cost.RELIGHT
     is_sun = group == SUN_GROUP and session.scene.sun is not None
     return Cost.RECOMPILE if is_sun or group == SKY_GROUP else Cost.RESTART
@@ -38,7 +38,7 @@ def reach_of_bounces(session: Session) -> Reach | None:
 
     The last layer holds the light of all longer paths together.
     """
-    if session.layering != "lengths":
+    if session.weighed != "lengths":
         return None
     plan = session.renderer.plan if session.renderer else None
     is_traced = plan and plan.layering == "lengths"

@@ -15,7 +15,7 @@ from glrt.rendering.pipelines import resolve
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.screen.surface_view import NEEDED
 from glrt.scene.scene import Scene
-from glrt.settings import OF_PATHS, Aov, Cost, Settings, settings_for
+from glrt.settings import OF_PATHS, TERMS, Aov, Cost, Settings, settings_for
 from glrt.view.edits.edited_state import State
 from glrt.view.edits.editing import Editing
 from glrt.view.state.idle_kernel import IdleKernel
@@ -76,6 +76,12 @@ class Session(Editing):
     def layering(self) -> Layering:
         """Content of the film's layers; "none" for fragment shaders, or if there is no room."""
         return "none" if self.pipeline == "fragment" or self.lacks_room else self.state.layering
+
+    @property
+    def weighed(self) -> Layering:
+        """The layering whose weights show an edit; "none" while terms of light are gathered."""
+        has_terms = bool({*self.aovs, *self.settings.aov} & {*TERMS})
+        return "none" if has_terms else self.layering
 
     @property
     def lacks_room(self) -> bool:
