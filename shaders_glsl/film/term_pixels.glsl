@@ -6,7 +6,9 @@ Pixel term_pixels[TERMS] = Pixel[TERMS](NOTHING, NOTHING, NOTHING, NOTHING, NOTH
 
 void add_terms(Path path, int index) {
     for (int i = 0; i < TERMS; i += 1) {
-        if (is_kept(i)) add_sample(term_pixels[i], is_finite(path.radiance) ? path.terms.light[i] : path.radiance, index);
+        if (!is_kept(i)) continue;
+        vec3 light = is_finite(path.radiance) ? path.terms.light[i] : path.radiance;  // the picture leaves it out, too
+        add_sample(term_pixels[i], light, index);
     }
 }
 

@@ -24,20 +24,20 @@ bool take_branch(inout Path path) {
 
 // Whether both rays are followed at this surface.
 bool is_split(Material material) {
-    if (MODEL != WHITTED_TREE) return false;
     return HAS_DIELECTRIC && material.kind == DIELECTRIC || HAS_PANE && material.kind == PANE;
 }
 
 // The reflected ray, weighed by its share; the ray through the surface is kept as a branch.
 Scattering split_path(Path path, Meeting at) {
     bool is_pane = HAS_PANE && at.vertex.material.kind == PANE;
-    float share = is_pane ? pane_reflectance(at.vertex.wo.z, at.vertex.material.ior) : fresnel(at.vertex.wo.z, at.vertex.eta);
+    float share = fresnel(at.vertex.wo.z, at.vertex.eta);
+    if (is_pane) share = pane_reflectance(at.vertex.wo.z, at.vertex.material.ior);
     Scattering reflected = is_pane ? sample_pane(at.vertex, -1.0) : sample_dielectric(at.vertex, -1.0);
     reflected.weight *= share;
     if (share >= 1.0) return reflected;
     Scattering crossing = is_pane ? sample_pane(at.vertex, 1.0) : sample_dielectric(at.vertex, 1.0);
     if (is_lost(at, crossing)) return reflected;
-    sort_by_surface(path, at.vertex, to_local(at.vertex.frame, crossing.direction), crossing.pdf, true);
+    if (LIGHT_TERMS != 0) sort_by_surface(path, at.vertex, crossing.direction, crossing.pdf, true);
     path.throughput *= (1.0 - share) * crossing.weight;
     path.scale *= crossing.scale;
     leave(path, at, crossing);

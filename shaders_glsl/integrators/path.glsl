@@ -49,14 +49,14 @@ void shade(inout Path path, Vertex vertex, Ray from, inout Sampler rng) {
     vec3 weight = path.scale * path.throughput;
     if (HAS_BACKGROUND) {
         vec3 sky = unhidden_sky(vertex.frame[2]);
-        sort_by_surface(path, vertex, vec3(0.0, 0.0, 1.0), 1.0, false);
+        if (LIGHT_TERMS != 0) sort_by_surface(path, vertex, vertex.frame[2], 1.0, false);
         gather(path, weight * head_on_reflectance(vertex.material) * sky, BACKGROUND_LAYER, path.depth + 1);
     }
     if (LAMP_KINDS == 0) return;
     if (MODEL == COOK) {
         LightSample light = sample_light(from, total_weight(from), rng);
         vec3 direct = weight * direct_light(vertex, light, 0.0);
-        sort_by_surface(path, vertex, to_local(vertex.frame, light.ray.direction), light.pdf, false);
+        if (LIGHT_TERMS != 0) sort_by_surface(path, vertex, light.ray.direction, light.pdf, false);
         gather(path, direct, light.layer, path.depth + 1);
         return;
     }
@@ -65,7 +65,7 @@ void shade(inout Path path, Vertex vertex, Ray from, inout Sampler rng) {
         int shape = light_at(i).shape;
         vec3 direct = weight * point_light(vertex, from, shape);
         vec3 away = normalized(point_lamp(shape).center - from.origin);
-        sort_by_surface(path, vertex, to_local(vertex.frame, away), 1.0, false);
+        if (LIGHT_TERMS != 0) sort_by_surface(path, vertex, away, 1.0, false);
         gather(path, direct, material_at(point_lamp(shape).material).layer, path.depth + 1);
     }
     note_end(i, light_count());
@@ -129,7 +129,7 @@ void gather_sampled(inout Path path, Meeting at, LightSample light, int source) 
     }
     record_sample(light.ray.direction, light.distance);
     record_light(BY_SAMPLING, source, light.pdf, light.radiance, direct);
-    sort_by_surface(path, at.vertex, to_local(at.vertex.frame, light.ray.direction), light.pdf, along < 0.0);
+    if (LIGHT_TERMS != 0) sort_by_surface(path, at.vertex, light.ray.direction, light.pdf, along < 0.0);
     gather(path, direct, light.layer, path.depth + 1);
 }
 
@@ -226,10 +226,10 @@ bool scatter_path(inout Path path, Surface surface, Material whole, inout Sample
     gather_direct(path, at, resamples, rng);
     gather_from_probes(path, at.vertex, surface.position, rng);
     Scattering next;
-    if (is_split(material)) next = split_path(path, at);
+    if (MODEL == WHITTED_TREE && is_split(material)) next = split_path(path, at);
     else next = sample_material(at.vertex, rng);
     record_scattering(at.vertex.frame[2], next.direction, next.pdf, next.crosses);
-    sort_by_surface(path, at.vertex, to_local(at.vertex.frame, next.direction), next.pdf, next.crosses);
+    if (LIGHT_TERMS != 0) sort_by_surface(path, at.vertex, next.direction, next.pdf, next.crosses);
     if (is_lost(at, next)) {
         record_end(END_BELOW_SURFACE);
         return false;

@@ -46,7 +46,7 @@ Approach approach_lamps(inout Path path, Medium medium, float distance) {
     uint own = leave_for_a_ray();  // the segment may have passed holes by these numbers
     direct *= light_left(light.ray, light.distance, light.shape, path.flight.medium);
     hole_key = own;
-    sort_by_medium(path);
+    if (LIGHT_TERMS != 0) sort_by_medium(path);
     gather(path, direct, light.layer, path.depth + 1);
     return found;
 }
@@ -119,7 +119,7 @@ bool scatter_in_medium(inout Path path, inout Sampler rng) {
     leave_vertex(rng.seed, path.depth + 1);
     Medium medium = medium_at(path.flight.medium);
     path.lamps = total_weight(path.ray);
-    sort_by_medium(path);
+    if (LIGHT_TERMS != 0) sort_by_medium(path);
     if (SAMPLE_LIGHTS) gather_in_medium(path, medium, sample_light(path.ray, path.lamps, rng));
     if (SAMPLE_SKY) gather_in_medium(path, medium, sample_sky(path.ray, rng));
     if (SAMPLE_SUN) gather_in_medium(path, medium, sample_sun(path.ray, rng));

@@ -59,17 +59,18 @@ void gather(inout Path path, vec3 light, int group, int length) {
     if (LIGHT_TERMS != 0) sort_light(path.terms, light, length);
 }
 
-// Sorts light that this vertex scatters from wi into terms, where it is the first vertex. `pdf` 0: by a delta.
-void sort_by_surface(inout Path path, Vertex vertex, vec3 wi, float pdf, bool crosses) {
-    if (LIGHT_TERMS == 0 || path.depth > 0) return;
+// Sorts light that this vertex scatters from a direction of the world into terms, where it is the first vertex.
+// `pdf` 0: by a delta.
+void sort_by_surface(inout Path path, Vertex vertex, vec3 direction, float pdf, bool crosses) {
+    if (path.depth > 0) return;
     bool is_mirrored = pdf == 0.0 && vertex.material.kind != MATTE;
-    path.terms.base = is_mirrored ? vec3(0.0) : base_share(vertex, wi);
+    path.terms.base = is_mirrored ? vec3(0.0) : base_share(vertex, to_local(vertex.frame, direction));
     path.terms.rest = crosses ? TRANSMISSION : GLOSSY;
 }
 
 // The same for light that a medium scatters.
 void sort_by_medium(inout Path path) {
-    if (LIGHT_TERMS == 0 || path.depth > 0) return;
+    if (path.depth > 0) return;
     path.terms.base = vec3(0.0);
     path.terms.rest = VOLUME;
 }

@@ -111,7 +111,7 @@ void gather_from_probes(inout Path path, Vertex vertex, vec3 position, inout Sam
     ProbeLight found = light_of_probes(position, normal, -path.ray.direction);
     if (found.weight == 0.0) return;
     vec3 weight = path.scale * path.throughput * vertex.material.color / PI;
-    sort_by_surface(path, vertex, vec3(0.0, 0.0, 1.0), 1.0, false);
+    if (LIGHT_TERMS != 0) sort_by_surface(path, vertex, vertex.frame[2], 1.0, false);
     gather(path, weight * found.irradiance, 0, path.depth + 2);
     path.asking.is_done = true;
 }
