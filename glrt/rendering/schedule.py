@@ -144,11 +144,14 @@ def _rounds_of_choice(found: SceneFacts) -> int:
 def _rounds_of_shading(found: SceneFacts, settings: RenderSettings, search: int) -> int:
     """Rounds of a lighting model: its segments, and a shadow ray or a highlight for each lamp."""
     lamps = sum(found.lamps.values())
-    if METHODS[settings.method].splits:
-        return (2 << depth_of(settings)) * (1 + lamps) * (1 + search)
-    if METHODS[settings.method].follows:
-        return (settings.bounces + 1) * (1 + search) + lamps * (1 + search)
-    return 1 + search + lamps * (1 + HIGHLIGHT_ROUNDS)
+    traits = METHODS[settings.method]
+    if not traits.follows:
+        return 1 + search + lamps * (1 + HIGHLIGHT_ROUNDS)
+    ends, segments = 1, settings.bounces + 1
+    if traits.splits and (found.solid_glasses or found.panes):
+        ends = 1 << depth_of(settings)  # light is gathered where a path ends
+        segments = 2 * ends
+    return (segments + ends * lamps) * (1 + search)
 
 
 def dispatch_limits(context: Context, plan: Plan) -> tuple[int | None, int]:
@@ -156,11 +159,21 @@ def dispatch_limits(context: Context, plan: Plan) -> tuple[int | None, int]:
 
     Raises SceneError if not even one sample fits.
     """
-    more = rounds_for_particles(plan) + rounds_for_reuse(plan)
+    more = _more_rounds(plan)
     iterations = iterations_per_sample(plan) + more
     rounds = usable_rounds(context)
     least = iterations_per_sample(plan, 0) + more
     return rounds, most_samples(iterations, rounds, least)
+
+
+def is_within_limit(context: Context, plan: Plan) -> bool:
+    """Whether one sample is expected to stay within the driver's loop limit."""
+    rounds = usable_rounds(context)
+    return rounds is None or iterations_per_sample(plan) + _more_rounds(plan) <= rounds
+
+
+def _more_rounds(plan: Plan) -> int:
+    return rounds_for_particles(plan) + rounds_for_reuse(plan)
 
 
 def most_samples(iterations: int, rounds: int | None, least: int | None = None) -> int:

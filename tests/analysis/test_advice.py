@@ -17,7 +17,7 @@ from glrt.cli.main import main
 from glrt.gpu.context import Context
 from glrt.image.sources import load
 from glrt.settings import settings_for
-from tests.support.builders import scene_of
+from tests.support.builders import disk, lamp, scene_of, sphere
 from tests.support.processes import glrt
 from tests.support.verdicts import SIZE, Clock, candidate, furnace, of_bias, verdict_on
 
@@ -55,6 +55,27 @@ def test_the_choice_follows_the_rule_for_ties_that_it_states(work: float, chosen
     text = "\n".join(advice(scene, verdict))
     assert "`mis` is chosen if it takes at most 1.25 times as much" in text
     assert f"Enough: `{chosen}`" in text
+
+
+def test_methods_beyond_the_loop_limit_are_named() -> None:
+    ones = np.ones((1, 1, 3))
+    verdict = Verdict(
+        0.5, Reference(ones, ones, 1, 1), (of_bias(0.0),), {}, impossible=("whitted_tree", "ddgi")
+    )
+    assert conclusion(verdict).endswith("The driver's loop limit rules out `whitted_tree`, `ddgi`.")
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("loop_limit")
+def test_a_method_beyond_the_loop_limit_is_left_out(context: Context) -> None:
+    """A ball of glass under 160 lamps: a tree of 256 paths has a shadow ray from each to each."""
+    lamps = [disk([x, 3, z], [0, -1, 0], 0.05, "lamp") for x in range(-8, 8) for z in range(-8, 2)]
+    glass = {"type": "dielectric", "ior": 1.5}
+    objects = [sphere([0, 0, -3], 0.8, "glass"), *lamps]
+    scene = scene_of(objects, {"glass": glass, "lamp": lamp()}, background={"color": [1, 1, 1]})
+    verdict = verdict_on(scene, 0.5, context, bounces=8)
+    assert verdict.impossible == ("whitted_tree",)
+    assert candidate(verdict, "whitted")
 
 
 @pytest.mark.slow

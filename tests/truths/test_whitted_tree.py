@@ -7,9 +7,11 @@ import pytest
 
 from glrt.gpu.context import Context
 from glrt.plan.methods import DEPTH_OF_TREE, depth_of
+from glrt.plan.plan import prepare
 from glrt.rendering.renderer import Renderer
+from glrt.rendering.schedule import iterations_per_sample, rounds_of_search
 from glrt.scene.scene import Scene
-from glrt.settings import Settings
+from glrt.settings import Settings, settings_for
 from tests.support.builders import lamp, scene_of, sphere
 from tests.support.images import same_bits
 from tests.support.numerics import Array
@@ -179,3 +181,23 @@ def test_a_tree_is_as_deep_as_its_limit(context: Context) -> None:
     assert not same_bits(deep, less)
     assert depth_of(Settings(method="whitted_tree", bounces=40)) == DEPTH_OF_TREE
     assert depth_of(Settings(method="whitted", bounces=40)) == 40
+
+
+# --- rounds of loops -----------------------------------------------------------------------------
+
+
+@pytest.mark.usefixtures("exact_kernels")
+@pytest.mark.parametrize("bounces", [2, 5, DEPTH_OF_TREE, 12])
+def test_rounds_are_those_of_the_paths_through_glass(bounces: int) -> None:
+    """Each of 2^depth paths ends with a shadow ray for each lamp; without glass one path does."""
+    with_glass, without = scene_towards((0, 0, 0)), scene_towards((0, 0, 0))
+    kept = [shape for shape in without.objects if shape.material != "glass"]
+    without = without.model_copy(update={"objects": kept})
+    depth = min(bounces, DEPTH_OF_TREE)
+    tree = settings_for(with_glass.render, method="whitted_tree", bounces=bounces)
+    chain = settings_for(tree, method="whitted")
+    plan = prepare(with_glass, tree)
+    lamps = sum(plan.facts.lamps.values())
+    rays = 2 ** (depth + 1) + 2**depth * lamps
+    assert iterations_per_sample(plan) == 1 + rays * (1 + rounds_of_search(plan.facts))
+    assert len({iterations_per_sample(prepare(without, way)) for way in (tree, chain)}) == 1

@@ -16,9 +16,8 @@ from glrt.analysis.variants import Variant, variants_of
 from glrt.core import files
 from glrt.core.version import VERSION
 from glrt.gpu.context import Context
-from glrt.gpu.driver_checks import usable_rounds
 from glrt.plan.plan import prepare
-from glrt.rendering.schedule import iterations_per_sample
+from glrt.rendering.schedule import is_within_limit
 from glrt.scene.scene import Scene
 from glrt.scene.scenefile.toml import scene_to_dict
 from glrt.settings import Settings, settings_for
@@ -96,7 +95,7 @@ def measure_scene(
     variants = [
         variant
         for variant in variants_of(scene, settings)
-        if _is_possible(scene, variant.settings, context)
+        if is_within_limit(context, prepare(scene, variant.settings))
     ]
     place = f"glrt {VERSION}, {context.renderer}, {os.cpu_count()} processors"
     allowed = REFERENCE_SHARE * plan.seconds
@@ -129,12 +128,6 @@ def frame_of(scene: Scene, height: int) -> Settings:
     wish = scene.render
     width = max(1, round(height * wish.width / wish.height))
     return settings_for(wish, width=width, height=height)
-
-
-def _is_possible(scene: Scene, settings: Settings, context: Context) -> bool:
-    """Whether one sample stays within the loop limit of the driver."""
-    usable = usable_rounds(context)
-    return usable is None or iterations_per_sample(prepare(scene, settings)) <= usable
 
 
 def _missing_rounds(

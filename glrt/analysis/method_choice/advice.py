@@ -4,7 +4,7 @@ import argparse
 import math
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from typing import NamedTuple
@@ -183,10 +183,15 @@ def conclusion(verdict: Verdict, least_samples: int = 1) -> str:
     `least_samples` are taken in any case.
     """
     found = _finding(verdict, least_samples)
-    if not verdict.untried:
-        return found
-    names = ", ".join(f"`{name}`" for name in verdict.untried)
-    return f"{found} Half of --time was too short to try {names}."
+    if verdict.impossible:
+        found += f" The driver's loop limit rules out {_quoted(verdict.impossible)}."
+    if verdict.untried:
+        found += f" Half of --time was too short to try {_quoted(verdict.untried)}."
+    return found
+
+
+def _quoted(names: Sequence[str]) -> str:
+    return ", ".join(f"`{name}`" for name in names)
 
 
 def _finding(verdict: Verdict, least_samples: int) -> str:

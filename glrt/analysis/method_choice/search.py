@@ -13,7 +13,9 @@ from glrt.analysis.reference import Budget, Reference, reference_for, unlimited
 from glrt.analysis.variants import variants_of
 from glrt.gpu.context import Context
 from glrt.plan.methods import BIASED, METHODS
+from glrt.plan.plan import prepare
 from glrt.rendering.renderer import Renderer
+from glrt.rendering.schedule import is_within_limit
 from glrt.scene.scene import Scene
 from glrt.settings import MAX_SAMPLES, Settings, settings_for
 
@@ -37,6 +39,7 @@ class Verdict:
     candidates: tuple[Candidate, ...]  # the methods; the ones that leave light out come first
     beyond: dict[int, Bias]  # by limit of bounces: the bias from leaving out longer paths
     untried: tuple[str, ...] = ()  # methods that were not measured, for lack of time
+    impossible: tuple[str, ...] = ()  # methods beyond the loop limit of the driver
 
     @property
     def best(self) -> Candidate | None:
@@ -109,12 +112,20 @@ def what_suffices(
         limits = trial.limits(counter, bounces, reference.bounces)
     beyond = {limit: candidate.bias for limit, candidate in limits.items()}
     leader = min(limits.values(), key=lambda candidate: candidate.work_to(error))
-    variants = variants_of(scene, small, methods, leads=False)
+    every = variants_of(scene, small, methods, leads=False)
+    variants = [it for it in every if is_within_limit(context, prepare(scene, it.settings))]
     found = trial.methods(variants, leader)
     order = [*BIASED, *METHODS]
     ranked = sorted(found, key=lambda c: order.index(c.settings.method))
     untried = {variant.name for variant in variants} - {candidate.name for candidate in found}
-    return Verdict(error, reference, tuple(ranked), beyond, tuple(sorted(untried)))
+    return Verdict(
+        error,
+        reference,
+        tuple(ranked),
+        beyond,
+        untried=tuple(sorted(untried)),
+        impossible=tuple(it.name for it in every if it not in variants),
+    )
 
 
 def _always(_renderer: Renderer | None) -> bool:
