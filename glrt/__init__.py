@@ -44,6 +44,7 @@ if TYPE_CHECKING:
     from glrt.rendering.paths.values import Contribution, Path, PathVertex, PixelPaths
     from glrt.rendering.renderer import Renderer
     from glrt.scene.camera import Camera
+    from glrt.scene.density import Density
     from glrt.scene.lights.background import Background
     from glrt.scene.lights.clear_sky import ClearSky
     from glrt.scene.lights.cone import Cone
@@ -75,6 +76,7 @@ __all__ = [
     "ContextError",
     "Contribution",
     "Cylinder",
+    "Density",
     "Dielectric",
     "Disk",
     "GlrtError",
@@ -120,6 +122,7 @@ _HOMES = {
     "ContextError": "core.errors",
     "Contribution": "rendering.paths.values",
     "Cylinder": "scene.shapes.cylinder",
+    "Density": "scene.density",
     "Dielectric": "scene.materials.dielectric",
     "Disk": "scene.shapes.disk",
     "GlrtError": "core.errors",

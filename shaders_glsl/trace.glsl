@@ -47,6 +47,7 @@
 #include "integrators/record_numbers.glsl"
 #include "integrators/roulette.glsl"
 #include "media/phase.glsl"
+#include "media/grid.glsl"
 #include "media/flight.glsl"
 #include "media/equiangular.glsl"
 #include "integrators/aov_numbers.glsl"

@@ -14,6 +14,7 @@ Modules, each importing only what stands above it:
 - scene_tree: the BVH over shapes, one packer of leaves for each kind
 - lights: lamps as rows
 - texture_maps: textures of materials, and texture axes of shapes
+- voxel_texture: voxels of all grids, and the largest density in each brick
 - media: media and the bounds of volumes
 - particles: data for particles from lamps
 - probes: data for probes

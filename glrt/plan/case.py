@@ -74,9 +74,18 @@ class Case:
         return bool(self.facts.media.names) and not self.traits.model
 
     @property
-    def has_few_lamps(self) -> bool:
-        """Whether the lamps are so few that each is weighed along every segment."""
-        return self.facts.sampled_lamps <= MOST_APPROACHED
+    def has_grids(self) -> bool:
+        """Whether the density of such a medium varies."""
+        return self.has_media and bool(self.facts.media.grids)
+
+    @property
+    def samples_along_segments(self) -> bool:
+        """Whether light of few lamps is sampled along segments through media of even density."""
+        media = self.facts.media
+        if not self.has_media or len(media.grids) == len(media.names):
+            return False
+        is_sampled = self.is_lit and self.traits.samples_lights
+        return is_sampled and self.facts.sampled_lamps <= MOST_APPROACHED
 
     @property
     def aims(self) -> bool:

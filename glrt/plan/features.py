@@ -113,11 +113,10 @@ class Needs:
     has_coverage_map: bool = _textured("textured alpha", "alpha")
     has_transmission_map: bool = _textured("textured transmission", "transmission")
     has_hole: bool = _made_of("alpha below 1 or none", "holes", lambda it: it.passed)
-    has_media: bool = _row(  # paths fly through media
-        lambda it: it.has_media, "media", reasons.media
-    )
+    has_media: bool = _row(lambda it: it.has_media, "media", reasons.media)
+    has_grid: bool = _row(lambda it: it.has_grids, "grids", reasons.grids)
     has_equiangular: bool = _row(  # samples the light of few lamps along segments through media
-        lambda it: it.has_media and it.is_lit and it.traits.samples_lights and it.has_few_lamps,
+        lambda it: it.samples_along_segments,
         "along segments",
         reasons.equiangular,
         most=False,

@@ -21,6 +21,11 @@ class MediaFacts:
         return self.scene.media_in_use
 
     @cached_property
+    def grids(self) -> list[str]:
+        """Names of the media whose density varies; the rows of their grids in the kernel."""
+        return [name for name in self.names if self.scene.media[name].density is not None]
+
+    @cached_property
     def bounds(self) -> tuple[Bounds, ...]:
         """The bounds of all volumes, in a scene that uses media."""
         shown = set(self.scene.shown)

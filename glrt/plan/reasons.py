@@ -55,6 +55,12 @@ def media(case: Case) -> str:
     return f"filled with {few(names)}" if names else "no medium fills space"
 
 
+def grids(case: Case) -> str:
+    """Return the media whose density varies."""
+    names = case.facts.media.grids
+    return f"density varies in {few(names)}" if names else "no medium has a grid"
+
+
 def equiangular(case: Case) -> str:
     """Return the media and the lamps."""
     return f"{media(case)}, {lamps(case)}"

@@ -1,7 +1,7 @@
 """A scene in the driver's memory: its arrays, and the source of the kernels that read them."""
 
 import time
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any, Protocol
 
 import moderngl
@@ -21,6 +21,7 @@ from glrt.packing.scene_tree import SceneTree, tree_of
 from glrt.packing.sky_table import SkyTable
 from glrt.packing.texel_texture import TexelTexture
 from glrt.packing.texture_maps import images_of, textures_of
+from glrt.packing.voxel_texture import VoxelTexture, grids_of
 from glrt.plan.facts import SceneFacts
 from glrt.plan.plan import Plan
 from glrt.rendering.passes import RenderPass, Resolved
@@ -29,6 +30,7 @@ from glrt.rendering.pipelines import (
     SHAPES,
     SKY_TREE,
     TEXELS,
+    VOXELS,
     KernelOptions,
     Tier,
     scene_text,
@@ -37,8 +39,6 @@ from glrt.rendering.pipelines import (
     upload,
 )
 from glrt.rendering.schedule import DispatchRange, stride_of
-from glrt.scene.loading.scene_files import check_loaded
-from glrt.scene.scene import Scene
 
 SLOTS = block_of("Slot")
 STILL = ("Slot", "Corner", "Triangle")  # may be large; a moved camera leaves them unchanged
@@ -70,8 +70,8 @@ class DeviceScene:
         """Upload the scene of a plan.
 
         The tier is "generic" if the scene has too many shapes to bake. Data equal to that of
-        `before` is shared. Raises RenderError if the driver has no room. Raises SceneError if a
-        file of the scene was not read, or if an image exceeds the driver's limit.
+        `before` is shared. The files of the scene were read. Raises RenderError if the driver has
+        no room, and SceneError if an image exceeds the driver's limit.
         """
         self._gl, self._options, self._scene = context.gl, options, plan.scene
         start = time.perf_counter()
@@ -83,24 +83,19 @@ class DeviceScene:
         variant = options.variant.constants
         stack = {"TREE_STACK": self._tree.stack if self._tree else 0}
         self._constants = {**plan.needs.constants(), **plan.constants(), **stack, **variant}
-        # Rounds of loops through trees and passed surfaces are a guess: samples may be lost.
-        self._may_lose = plan.facts.has_trees or bool(plan.facts.passed)
+        # Rounds of loops through trees, passed surfaces and grids are a guess: samples may be lost.
+        facts = plan.facts
+        self._may_lose = bool(facts.has_trees or facts.passed or facts.media.grids)
         self.tier = tier_for(self._arrays, options.tier)
         self._texts = self._texts_of(self.tier)
         self._resources: dict[str, Resource] = {}
         self._kept: dict[str, Shared] = {}  # arrays that the scenes before and after an edit share
-        self._sky: ImageTexture | None = None
-        self._sky_table: SkyTable | None = None
-        self._texels: TexelTexture | None = None
-        check_loaded(plan.scene)
+        self._textures: dict[str, Shared] = {}  # of images and grids, by sampler
         try:
             with context.checked("the scene"):
                 self._upload(before)
-                self._sky = _sky_image(context, plan.scene, before._sky if before else None)
-                self._texels = _texel_texture(context, plan, before._texels if before else None)
-                if plan.needs.sample_sky:
-                    known = before._sky_table if before else None
-                    self._sky_table = _sky_table(context, plan.scene, known)
+                for name, texture in _textures(context, plan, before._textures if before else {}):
+                    self._textures[name] = texture
         except (RenderError, SceneError):
             self.release()
             raise
@@ -157,17 +152,12 @@ class DeviceScene:
         now = Dispatch(
             film.next_sample, part.samples, part.first, stride_of(tiles), not film.samples
         )
-        density = self._sky_table.density if self._sky_table else 0.0
+        table = self._textures.get(SKY_TREE)
+        density = table.density if isinstance(table, SkyTable) else 0.0
         self._frame.write(pack_frame(plan, self._counts, now, self._tree, density))
         self._write_tree()
-        resources = {**self._resources, **own}
-        if self._sky:
-            resources = {**resources, ENVIRONMENT: self._sky.resource}
-        if self._sky_table:
-            resources = {**resources, SKY_TREE: self._sky_table.resource}
-        if self._texels:
-            resources = {**resources, TEXELS: self._texels.resource}
-        kernel.bind(resources, film.images())
+        images = {name: texture.resource for name, texture in self._textures.items()}
+        kernel.bind({**self._resources, **own, **images}, film.images())
         kernel.run_tiles(part.tiles)
 
     def lost_any(self) -> bool:
@@ -180,13 +170,8 @@ class DeviceScene:
     def release(self) -> None:
         """Release all OpenGL resources that are not shared."""
         own = {name: some for name, some in self._resources.items() if name not in self._kept}
-        for resource in (*own.values(), *self._kept.values(), *self._images):
-            if resource:
-                resource.release()
-
-    @property
-    def _images(self) -> list[Shared | None]:
-        return [self._sky, self._sky_table, self._texels]
+        for resource in (*own.values(), *self._kept.values(), *self._textures.values()):
+            resource.release()
 
     def _upload(self, before: "DeviceScene | None") -> None:
         self._frame = self._resources["FrameBlock"] = self._gl.buffer(
@@ -244,26 +229,26 @@ class DeviceScene:
         return sources(self._options.pipeline, self._constants, texts)
 
 
-def _sky_image(context: Context, scene: Scene, known: ImageTexture | None) -> ImageTexture | None:
-    picture = scene.sky
-    if picture is None:
-        return None
-    if known and known.shows(picture):
-        return known.shared()
-    return ImageTexture(context, picture)
-
-
-def _sky_table(context: Context, scene: Scene, known: SkyTable | None) -> SkyTable:
-    picture = scene.sky
-    assert picture is not None
-    return known.shared() if known and known.samples(picture) else SkyTable(context.gl, picture)
-
-
-def _texel_texture(context: Context, plan: Plan, known: TexelTexture | None) -> TexelTexture | None:
-    images = images_of(textures_of(plan.facts))
-    if not images:
-        return None
-    return known.shared() if known and known.holds(images) else TexelTexture(context, images)
+def _textures(
+    context: Context, plan: Plan, known: Mapping[str, Shared]
+) -> Iterator[tuple[str, Shared]]:
+    """Yield samplers and textures of a scene; equal ones among `known` are shared."""
+    if picture := plan.scene.sky:
+        image = known.get(ENVIRONMENT)
+        is_known = isinstance(image, ImageTexture) and image.shows(picture)
+        yield ENVIRONMENT, image.shared() if image and is_known else ImageTexture(context, picture)
+    if images := images_of(textures_of(plan.facts)):
+        texels = known.get(TEXELS)
+        is_known = isinstance(texels, TexelTexture) and texels.holds(images)
+        yield TEXELS, texels.shared() if texels and is_known else TexelTexture(context, images)
+    if grids := grids_of(plan.facts):
+        voxels = known.get(VOXELS)
+        is_known = isinstance(voxels, VoxelTexture) and voxels.holds(grids)
+        yield VOXELS, voxels.shared() if voxels and is_known else VoxelTexture(context, grids)
+    if picture and plan.needs.sample_sky:
+        table = known.get(SKY_TREE)
+        is_known = isinstance(table, SkyTable) and table.samples(picture)
+        yield SKY_TREE, table.shared() if table and is_known else SkyTable(context.gl, picture)
 
 
 def _tree(facts: SceneFacts, before: DeviceScene | None) -> SceneTree | None:

@@ -22,6 +22,7 @@ ENVIRONMENT = "environment_image"  # the texture of the image of the sky
 SKY_TREE = "environment_tree"  # the texture of the tree that samples this image
 RESERVOIRS = "held_reservoirs"  # the texture of what samples keep for later ones
 TEXELS = "map_texels"  # the texture of all images on surfaces
+VOXELS = "grid_voxels"  # the texture of all grids of media
 MOST_BAKED = 32  # shapes
 SHAPES = (*NUMBERED, "Target", "Sides")  # arrays that follow from the shapes alone
 
@@ -91,6 +92,10 @@ vec4 reservoir_part_at(ivec2 texel) {{ return texelFetch({RESERVOIRS}, texel, 0)
 uniform sampler2D {TEXELS};
 vec4 texel_at(int index) {{
     return texelFetch({TEXELS}, ivec2(index & {WIDTH - 1}, index >> {BITS}), 0);
+}}
+uniform sampler2D {VOXELS};
+vec4 voxel_at(int index) {{
+    return texelFetch({VOXELS}, ivec2(index & {WIDTH - 1}, index >> {BITS}), 0);
 }}
 """
 

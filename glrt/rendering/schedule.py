@@ -22,6 +22,8 @@ from glrt.plan.facts import MESH, SceneFacts
 from glrt.plan.features import NEAR
 from glrt.plan.methods import METHODS, SPATIAL, TEMPORAL, depth_of, reuses_points
 from glrt.plan.plan import Plan
+from glrt.scene.grids import steps_across
+from glrt.scene.loading.scene_files import check_loaded
 from glrt.scene.scene import Scene
 from glrt.settings import RenderSettings
 
@@ -73,6 +75,8 @@ def iterations_per_sample(plan: Plan, tree_rounds: float = TREE_ROUNDS) -> int:
     rays += traits.samples_lights and plan.scene.sun is not None
     segments = (settings.bounces + 1) * (1 + _passed(facts))
     bounds = 2 + len(facts.media.bounds) if plan.needs.has_media else 0  # to look one up
+    if plan.needs.has_grid and tree_rounds:
+        bounds += sum(steps_across(plan.scene, name) for name in facts.media.grids)
     if plan.needs.has_equiangular:  # a ray more, and its lamp chosen
         rays, choice = rays + 1, 2 * choice + 2 * facts.clusters
     return 1 + segments * (1 + rays * (search + bounds) + choice)
@@ -157,8 +161,9 @@ def _rounds_of_shading(found: SceneFacts, settings: RenderSettings, search: int)
 def dispatch_limits(context: Context, plan: Plan) -> tuple[int | None, int]:
     """Loop rounds per dispatch (None: no limit), and the most samples per dispatch.
 
-    Raises SceneError if not even one sample fits.
+    Raises SceneError if not even one sample fits, or for a scene whose files were not read.
     """
+    check_loaded(plan.scene)
     more = _more_rounds(plan)
     iterations = iterations_per_sample(plan) + more
     rounds = usable_rounds(context)

@@ -18,10 +18,12 @@ from glrt.packing.shapes import NUMBERED
 from glrt.packing.sky_table import sky_sampling, tree_texture
 from glrt.packing.texel_texture import texture_of as texels_of
 from glrt.packing.texture_maps import images_of, textures_of
+from glrt.packing.voxel_texture import grids_of
+from glrt.packing.voxel_texture import texture_of as voxels_of
 from glrt.plan.facts import SceneFacts
 from glrt.plan.features import everything
 from glrt.plan.plan import Plan, prepare
-from glrt.rendering.pipelines import ENVIRONMENT, SKY_TREE, TEXELS, scene_text, upload
+from glrt.rendering.pipelines import ENVIRONMENT, SKY_TREE, TEXELS, VOXELS, scene_text, upload
 from glrt.scene.instancing import Apart
 from glrt.scene.scene import Scene
 from glrt.settings import Settings, settings_for
@@ -100,6 +102,8 @@ def resources_of(
         sky = {ENVIRONMENT: texture_of(gl, pixels), SKY_TREE: tree_texture(gl, sampling.tree)}
     if plan and (images := images_of(textures_of(plan.facts))):
         sky[TEXELS] = texels_of(gl, images)
+    if plan and plan.facts.media.grids:
+        sky[VOXELS] = voxels_of(gl, grids_of(plan.facts))
     return {**upload(gl, arrays, "generic"), "FrameBlock": gl.buffer(frame), **sky}
 
 
@@ -116,6 +120,7 @@ def _choice(found: SceneFacts) -> dict[str, bool | int]:
         "HAS_MAP": bool(found.mapped),
         "HAS_HOLE": bool(found.passed),
         "HAS_MEDIA": bool(found.media.names),
+        "HAS_GRID": bool(found.media.grids),
         "BOUNDARIES": len(found.media.bounds),
         "HAS_COAT": bool(found.coated),
         "HAS_ROUGH_GLASS": bool(found.rough_glasses),
@@ -132,6 +137,6 @@ def no_rows() -> dict[str, Array]:
         ("Axes", "Uv", "Tangent", "Map", "Maps"),
         ("Emitter", "Light", "Cluster", "Aim", "Target", "Sides"),
     )
-    details = ("Material", "Conductor", "Glass", "Gloss", "Albedo", "Medium", "Boundary")
+    details = ("Material", "Conductor", "Glass", "Gloss", "Albedo", "Medium", "Boundary", "Grid")
     others = (*trees, *images, *details, *lamps)
     return {struct: np.zeros(0, STRUCTS[struct]) for struct in (*NUMBERED, *others)}

@@ -12,6 +12,7 @@ Modules, each importing only what stands above it:
 - lights: background, sun, clear sky, and the cone of a lamp
 - materials: materials, one file for each type
 - model_files: files of models: glTF, OBJ, PLY and STL
+- density: grids by which the density of a medium varies
 - medium: media between surfaces
 - probes: grid of probes
 - schema: fields of a scene, and their checks
@@ -19,6 +20,7 @@ Modules, each importing only what stands above it:
 - instancing: meshes that share a BVH
 - crossing_glass: solids that cross, share a face or lie inside each other
 - volumes: media inside and outside of objects
+- grids: places of grids in the world
 - loading: loads the files that a scene names
 - nesting: glasses that overlap by priority
 - misfits: parts that do not go together

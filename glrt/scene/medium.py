@@ -1,9 +1,10 @@
-"""Media that fill the space between surfaces evenly: fog, milk, glowing gas."""
+"""Media that fill the space between surfaces: fog, milk, smoke, glowing gas."""
 
 from typing import TYPE_CHECKING, Annotated
 
 from pydantic import Field
 
+from glrt.scene.density import Density
 from glrt.scene.values import BLACK, Number, Radiance, Triple, Value
 from glrt.settings import Cost, Editable
 
@@ -13,7 +14,7 @@ Turn = Annotated[float, Field(ge=-0.99, le=0.99)]
 
 
 class Medium(Value):
-    """A medium that scatters, absorbs and emits light evenly, by the radiative transfer equation.
+    """A medium that scatters, absorbs and emits light, by the radiative transfer equation.
 
     Lengths are those of the world, whatever the transform of the object that holds it.
     """
@@ -33,6 +34,11 @@ class Medium(Value):
         BLACK,
         description="radiance that it emits per unit of length; it does not depend on `absorption`",
     )
+    density: Annotated[Density | None, Editable(Cost.RECOMPILE)] = Field(
+        None,
+        description="a grid by which scattering, absorption and emission are multiplied; default: "
+        "1 everywhere",
+    )
 
     if TYPE_CHECKING:
 
@@ -43,6 +49,7 @@ class Medium(Value):
             absorption: Triple = BLACK,
             anisotropy: Number = 0.0,
             emission: Triple = BLACK,
+            density: Density | None = None,
         ) -> None: ...
 
     @property

@@ -51,11 +51,59 @@ Approach approach_lamps(inout Path path, Medium medium, float distance) {
     return found;
 }
 
+// Flies over a segment of this length through a grid, like `collides`.
+bool collides_in_grid(inout Path path, Medium medium, float distance) {
+    if (medium.scattering == vec3(0.0)) {
+        GridShare found = cross_grid(medium, path.ray, distance);
+        vec3 light = path.scale * path.throughput * weight_of_flight(path.flight) * found.glow;
+        if (medium.emission != vec3(0.0)) gather(path, light, medium.layer, path.depth);
+        path.throughput *= found.share;
+        return false;
+    }
+    Grid grid = grid_at(medium.grid);
+    vec3 rates = fictitious(grid, medium);
+    March march = enter_grid(grid, path.ray, distance);
+    while (march.way < march.end) {
+        float top = top_of_brick(grid, march.brick);
+        float rate = top * rates[path.flight.channel];
+        float room = rate * (march.stop - march.way);
+        bool is_met = path.flight.depth < room;
+        float way = is_met ? path.flight.depth / rate : march.stop - march.way;
+        path.flight.left *= share_left(top * rates, way);
+        if (!is_met) {
+            path.flight.depth -= room;
+            leave_brick(march, grid);
+            continue;
+        }
+        march.way += way;
+        float density = density_at(grid, march.start + march.way * march.along);
+        vec3 real = density * medium.extinction;
+        if (medium.emission != vec3(0.0)) {
+            vec3 weight = path.flight.left / dot(path.flight.chances, path.flight.left * rates * top);
+            gather(path, path.scale * path.throughput * weight * density * medium.emission, medium.layer, path.depth);
+        }
+        if (next_of_collision() * rate < real[path.flight.channel]) {
+            if (HAS_EQUIANGULAR) path.approach = no_approach();
+            path.throughput *= weight_of_collision(path.flight, medium);
+            path.flight.left = vec3(1.0);
+            path.ray.origin += march.way * path.ray.direction;
+            path.ray.origin_shape = NO_SHAPE;
+            return true;
+        }
+        path.flight.left *= max(top * rates - real, vec3(0.0));
+        path.flight.left /= max(max(path.flight.left.x, path.flight.left.y), path.flight.left.z);
+        path.flight.depth = depth_of(next_of_collision());
+    }
+    note_end(march.way < march.end ? 0 : 1, 1);
+    return false;
+}
+
 // Flies over a segment of this length. True if the path collides there: then its ray starts at the collision. A
 // medium that only absorbs takes its share without chance.
 bool collides(inout Path path, float distance) {
     if (path.flight.medium == NO_MEDIUM) return false;
     Medium medium = medium_at(path.flight.medium);
+    if (HAS_GRID && medium.grid != NO_GRID) return collides_in_grid(path, medium, distance);
     gather_glow(path, medium, distance);
     if (medium.scattering == vec3(0.0)) {
         path.throughput *= share_left(medium.extinction, distance);

@@ -2,6 +2,7 @@
 
 Path camera_path(ivec2 place, inout Sampler rng) {
     Path path = start_path(camera_ray(frame.camera, vec2(frame.size), vec2(place), rng));
+    if (HAS_GRID) start_collisions(rng.seed);
     if (HAS_MEDIA) begin_flight(path.flight, path.throughput, rng);
     return path;
 }

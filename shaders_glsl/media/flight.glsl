@@ -14,23 +14,6 @@ struct Flight {
     vec4 dice;      // for a sample along the segment (media/equiangular.glsl); x below 0: it was taken
 };
 
-// -ln(1 - u), for u below 1, which differs between drivers: by the exponent and the series of artanh, whose argument
-// is at most 0.172. The series is right to 1e-9.
-float depth_of(float u) {
-    int bits = floatBitsToInt(1.0 - u);
-    int exponent = (bits - 0x3F3504F3) >> 23;  // of a mantissa from sqrt(1/2) to sqrt(2)
-    float mantissa = intBitsToFloat(bits - (exponent << 23));
-    float s = (mantissa - 1.0) / (mantissa + 1.0);
-    float s2 = s * s;
-    float p = 1.0 / 9.0;
-    p = p * s2 + 1.0 / 7.0;
-    p = p * s2 + 1.0 / 5.0;
-    p = p * s2 + 1.0 / 3.0;
-    float series = 2.0 * s + 2.0 * s * s2 * p;
-    float depth = -float(exponent) * 0.69314718 - series;
-    return depth;
-}
-
 Flight start_flight(int medium) {
     return Flight(medium, 0, 0.0, vec3(1.0), vec3(1.0), vec4(-1.0));
 }
@@ -102,12 +85,14 @@ vec3 light_left(Ray ray, float distance, int lamp, int medium) {
     bool is_shared = HAS_COINCIDENT && lamp != NO_SHAPE && !(HAS_SPHERE && up_to_sphere(lamp));
     float limit = is_shared ? FAR : distance;
     vec3 depth = vec3(0.0);
+    vec3 left = vec3(1.0);  // by grids
     uint passed = 0u;
     for (; passed <= MOST_HOLES; passed += 1u) {
         Hit hit = find_hit(ray, limit, is_shared ? NO_SHAPE : lamp, false);
         bool arrives = hit.shape == (is_shared ? lamp : NO_SHAPE);
-        if (medium != NO_MEDIUM) depth += hit.distance * medium_at(medium).extinction;
-        if (arrives) return vec3(decay(depth.x), decay(depth.y), decay(depth.z));
+        if (HAS_GRID && is_uneven(medium)) left *= cross_grid(medium_at(medium), ray, hit.distance).share;
+        else if (medium != NO_MEDIUM) depth += hit.distance * medium_at(medium).extinction;
+        if (arrives) return left * vec3(decay(depth.x), decay(depth.y), decay(depth.z));
         if (!HAS_HOLE || hit.shape == NO_SHAPE) return vec3(0.0);
         Surface surface = surface_at(ray, hit);
         if (!is_hole(material_of(ray, surface), passed)) return vec3(0.0);

@@ -20,6 +20,7 @@ from glrt.analysis.variants import variants_of
 from glrt.cli.main import main
 from glrt.gpu.context import Context
 from glrt.image.sources import load
+from glrt.rendering import schedule
 from tests.support.processes import glrt, start
 
 QUICK = ("--height", "8", "--rounds", "2", "--seconds", "0.3")
@@ -247,7 +248,7 @@ def test_variants_beyond_the_loop_limit_are_left_out(
     context: Context, tmp_path: Path, scenes: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    monkeypatch.setattr(experiment, "usable_rounds", lambda _context: 300)
+    monkeypatch.setattr(schedule, "usable_rounds", lambda _context: 300)
     scene = load(str(scenes / "lamp.toml"))
     result = measure_scene("c", scene, Plan(8, 2, 0.1), context, tmp_path / "r", lambda *_: None)
     names = [curve.name for curve in result.curves]

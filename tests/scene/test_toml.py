@@ -65,6 +65,12 @@ def test_missing_file_is_named_with_its_neighbour(tmp_path: Path) -> None:
         read_scene(tmp_path / "nowhere" / "box.toml")
 
 
+def test_keys_of_a_table_in_a_table_are_its_own() -> None:
+    sky = {"background": {"sky": {"turbidty": 3}}, "sun": {"elevation": 30, "azimuth": 0}}
+    with pytest.raises(SceneError, match=r"background\.sky: .* 'turbidity'\? Keys of a sky: "):
+        parse_scene({"camera": {"position": [0, 0, 1], "look_at": [0, 0, 0]}, **sky}, "a")
+
+
 def test_a_name_of_two_lines_does_not_break_the_paragraph() -> None:
     with pytest.raises(SceneError, match=r"^a\\nb\.toml: camera is missing") as caught:
         parse_scene({}, "a\nb.toml")

@@ -33,7 +33,26 @@ BAD_MEDIA = [
     _fog("light that turns back", "anisotropy = -1", "media.fog.anisotropy", "at least -0.99"),
     _fog("a dark glow", "emission = [0, 0, -1]", "media.fog.emission[2] must be at least 0"),
     _fog("a key of no medium", "scatering = [1, 1, 1]", "media.fog", "'scattering'?"),
-    _fog("smoke of a file", 'density = "a.npy"', "media.fog: unknown key 'density'"),
+    _fog("smoke as a path", 'density = "a.npy"', "media.fog.density", "table"),
+    _fog("smoke without a file", "density.scale = 2", "media.fog.density.file is missing"),
+    _fog("a misspelt grid", 'density = { fle = "a.npy" }', "media.fog.density", "'file'?"),
+    _fog(
+        "smoke in half a box",
+        'density = { file = "a.npy", min = [0, 0, 0] }',
+        "media.fog.density",
+        "both min and max",
+    ),
+    _fog(
+        "smoke in a flat box",
+        'density = { file = "a.npy", min = [0, 0, 0], max = [1, 0, 1] }',
+        "media.fog.density",
+        "min below max",
+    ),
+    _fog(
+        "smoke of less than nothing",
+        'density = { file = "a.npy", scale = -1 }',
+        "media.fog.density.scale must be at least 0",
+    ),
     bad(
         "a medium that is none", '"white"\n', '"none"\nmedium = "fog"\n', f"{_BALL}.medium", "'fog'"
     ),

@@ -74,6 +74,7 @@ PROBES = {
         "material.kind == NONE",
         "float(material.kind) == {} * float(NONE)",
     ),
+    "HAS_GRID": ("media/grid.glsl", "depth / (rate * top)", "{} * depth / (rate * top)"),
     "HAS_MEDIA": ("media/phase.glsl", "2.0 * u - 1.0", "2.0 * u - {}"),
     "HAS_LENS": ("integrators/camera.glsl", "camera.tan_lens * offset", "{} * offset"),
     "HAS_BACKGROUND": (

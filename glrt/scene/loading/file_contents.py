@@ -5,6 +5,7 @@ import numpy as np
 from glrt.core.errors import SceneError
 from glrt.scene.files.assets import Asset, AssetReader, folder_of
 from glrt.scene.files.named_files import container_of
+from glrt.scene.files.named_grids import GridFile, decode_grid
 from glrt.scene.files.named_images import ImageFile, Pixels, Texels, TextureImage
 from glrt.scene.files.named_meshes import MeshFile
 from glrt.scene.images.image_files import decode_image
@@ -14,13 +15,15 @@ from glrt.scene.model_files.mesh_formats import decode_mesh
 from glrt.scene.values import LARGEST
 
 BRIGHTEST = 65_504.0  # of a texture: the largest half float
-NamedContent = ImageFile | TextureImage | MeshFile
+NamedContent = ImageFile | TextureImage | MeshFile | GridFile
 
 
 def is_read(named: NamedContent) -> bool:
     """Return whether the content of a file is there."""
     if isinstance(named, ImageFile):
         return named.pixels is not None
+    if isinstance(named, GridFile):
+        return named.voxels is not None
     return (named.texels if isinstance(named, TextureImage) else named.triangles) is not None
 
 
@@ -31,6 +34,11 @@ def with_content(named: NamedContent, reader: AssetReader, where: str) -> NamedC
         beside = Beside(asset, reader, where)
         mesh = decode_mesh(asset.content, named.file, where, beside)
         return named.read_as(asset.sha256, mesh, asset.origin).with_companions(beside.hashes)
+    if isinstance(named, GridFile):
+        try:
+            return named.read_as(asset.sha256, decode_grid(asset.content), asset.origin)
+        except ValueError as error:
+            raise SceneError(f"{where}: {named.file}: {error}.") from None
     if isinstance(named, TextureImage):
         return _texture(named, asset, reader, where)
     pixels = _colors(decode_image(asset.content, f"{where}: {named.file}"))

@@ -7,14 +7,18 @@ import numpy as np
 
 from glrt.core.errors import SceneError
 from glrt.core.text import quoted
+from glrt.scene.density import Density
 from glrt.scene.files.assets import AssetFolder, AssetReader
+from glrt.scene.files.named_grids import GridFile
 from glrt.scene.files.named_images import ImageFile, TextureImage
+from glrt.scene.grids import grid_problems
 from glrt.scene.instancing import tree_sizes, with_own_tree
 from glrt.scene.loading.file_contents import NamedContent, is_read, with_content
 from glrt.scene.loading.mesh_parts import lacks_material, part_problem, with_own_materials
 from glrt.scene.materials.base import Opaque
 from glrt.scene.materials.kinds import Material
 from glrt.scene.materials.nothing import Nothing
+from glrt.scene.medium import Medium
 from glrt.scene.meshes.triangle_meshes import MOST_TRIANGLES
 from glrt.scene.schema.fields import SceneFields
 from glrt.scene.shapes.mesh import Mesh
@@ -88,13 +92,18 @@ def with_files_of(scene: SceneType, other: SceneFields) -> SceneType:
 
 
 def with_stand_ins(scene: SceneType) -> SceneType:
-    """Return the scene with a white pixel for each image that was not read: its kernel is equal."""
+    """Return the scene with one pixel or voxel of each image or grid that was not read.
+
+    Its kernel is equal.
+    """
     found = dict[NamedContent, NamedContent]()
     for _, named in named_files(scene):
         if isinstance(named, TextureImage) and not is_read(named):
             found[named] = named.read_as("", np.ones((1, 1, 4), np.float16), None)
         elif isinstance(named, ImageFile) and not is_read(named):
             found[named] = named.read_as("", np.ones((1, 1, 3), np.float32), None)
+        elif isinstance(named, GridFile) and not is_read(named):
+            found[named] = named.read_as("", np.ones((1, 1, 1), np.float32), None)
     return _with(scene, found) if found else scene
 
 
@@ -131,6 +140,7 @@ def placing_problems(scene: SceneFields) -> Iterator[str]:
     yield from _without_coordinates(scene)
     yield from _too_many(scene)
     yield from volume_problems(scene)
+    yield from grid_problems(scene)
 
 
 def _without_coordinates(scene: SceneFields) -> Iterator[str]:
@@ -180,6 +190,8 @@ def _with(scene: SceneType, known: Files) -> SceneType:
     }
     if any(material is not scene.materials[name] for name, material in materials.items()):
         changes["materials"] = materials
+    if any(grid.file in known for _, grid in _grids(scene)):
+        changes["media"] = {name: _with_grid(it, known) for name, it in scene.media.items()}
     return scene.model_copy(update=changes) if changes else scene
 
 
@@ -193,6 +205,22 @@ def named_files(scene: SceneFields) -> Iterator[tuple[str, NamedContent]]:
         for key, texture in material.textures.items() if isinstance(material, Opaque) else ():
             if texture.image is not None:
                 yield f"materials.{name}.{key}.image", texture.image
+    for name, grid in _grids(scene):
+        yield f"media.{name}.density.file", grid.file
+
+
+def _with_grid(medium: Medium, known: Files) -> Medium:
+    """Return the medium with a value of `known` in place of the file of its grid."""
+    if medium.density is None or medium.density.file not in known:
+        return medium
+    density = medium.density.model_copy(update={"file": known[medium.density.file]})
+    return medium.model_copy(update={"density": density})
+
+
+def _grids(scene: SceneFields) -> Iterator[tuple[str, Density]]:
+    for name, medium in scene.media.items():
+        if medium.density is not None:
+            yield name, medium.density
 
 
 def _meshes(scene: SceneFields) -> Iterator[tuple[int, Mesh]]:

@@ -14,7 +14,9 @@ from glrt.core.errors import SceneError
 from glrt.core.text import nearest, number, shortened, unknown
 from glrt.scene.animation.tracks import Animation, Track
 from glrt.scene.camera import Camera
+from glrt.scene.density import Density
 from glrt.scene.lights.background import Background
+from glrt.scene.lights.clear_sky import ClearSky
 from glrt.scene.lights.cone import Cone
 from glrt.scene.lights.sun import Sun
 from glrt.scene.materials.kinds import TYPES
@@ -41,6 +43,9 @@ _TABLES: dict[str, type[BaseModel]] = {
     "animation": Animation,
     "media": Medium,
 }
+_Nested = tuple[int, str, type[BaseModel]]  # of a table in a table: how deep, its key, its model
+_SKY, _GRID, _CONE = (1, "sky", ClearSky), (2, "density", Density), (3, "cone", Cone)
+_NESTED: dict[str, _Nested] = {"background": _SKY, "media": _GRID, "materials": _CONE}
 _TRACK = 3  # keys down to a track: a longer location is of a key of it
 _KINDS: dict[str, dict[str, Any]] = {"materials": TYPES, "objects": KINDS}
 
@@ -86,7 +91,7 @@ def advice(error: ValidationError, data: Mapping[str, Any]) -> Iterator[str]:
 
 
 def sentence(text: str) -> str:
-    """Return the text with a full stop, unless it ends with a mark of its own."""
+    """Return the text with a full stop, unless it has a mark of its own."""
     return text if text.endswith((".", "?")) else text + "."
 
 
@@ -148,10 +153,11 @@ def _model(location: Place) -> type[BaseModel]:
         return SceneFields
     if location[:2] == ("animation", "tracks") and len(location) > _TRACK:
         return Track
+    depth, key, inner = _NESTED.get(table, (0, "", SceneFields))
+    if key and location[depth:-1] == (key,):
+        return inner
     if table not in _KINDS:
         return _TABLES[table]
-    if location[3:-1] == ("cone",):
-        return Cone
     if len(location) > 4 and str(location[3]).endswith(("_map", "normal")):
         return NormalTexture if location[3] == "normal" else Texture
     model: type[BaseModel] = _KINDS[table][str(location[2])]
@@ -206,14 +212,8 @@ _PLAIN = {
 }
 _HEADINGS: dict[Place, str] = {
     (): "a scene must be a table",
-    ("camera",): "must be a table headed [camera]",
-    ("render",): "must be a table headed [render]",
-    ("background",): "must be a table headed [background]",
-    ("sun",): "must be a table headed [sun]",
-    ("probes",): "must be a table headed [probes]",
-    ("animation",): "must be a table headed [animation]",
+    **{(name,): f"must be a table headed [{name}]" for name in (*_TABLES, "lights")},
     ("animation", "tracks"): "must be a list of tables, each headed [[animation.tracks]]",
-    ("lights",): "must be a table headed [lights]",
     ("materials",): "must be a table of tables, each headed [materials.NAME]",
     ("media",): "must be a table of tables, each headed [media.NAME]",
     ("objects",): "must be a list of tables, each headed [[objects]]",
@@ -251,7 +251,7 @@ def _too_small(place: Place, detail: ErrorDetails) -> str:
 
 def _unknown_key(_place: Place, detail: ErrorDetails) -> str:
     model, table, key = _model(detail["loc"]), detail["loc"][0], str(detail["loc"][-1])
-    kind = "scene" if model is SceneFields else model.__name__.lower()
+    kind = {SceneFields: "scene", ClearSky: "sky"}.get(model, model.__name__.lower())
     owner = f"[{table}]" if model in _TABLES.values() else f"a {kind}"
     text = unknown("key", key, _keys(detail), f"Keys of {owner}")
     if model is not SceneFields and key in SceneFields.model_fields:
