@@ -9,12 +9,14 @@ from reference_markdown import GENERATED, table
 
 from glrt.scene.animation.tracks import Animation, Track
 from glrt.scene.camera import Camera
+from glrt.scene.density import Density
 from glrt.scene.lights.background import Background
 from glrt.scene.lights.clear_sky import ClearSky
 from glrt.scene.lights.cone import Cone
 from glrt.scene.lights.sun import Sun
 from glrt.scene.materials.kinds import TYPES
 from glrt.scene.materials.textures import NormalTexture, Texture
+from glrt.scene.medium import Medium
 from glrt.scene.probes import Probes
 from glrt.scene.scene import Scene
 from glrt.scene.shapes.kinds import KINDS
@@ -48,6 +50,13 @@ SCENE_TABLES: list[tuple[str, str, type[BaseModel]]] = [
         "normal of a material of type principled",
         'A texture with `strength`: `normal = { image = "bumps.png" }`.',
         NormalTexture,
+    ),
+    ("[media.NAME]", "Optional. [Media](../how-to/media.md).", Medium),
+    (
+        "density of a medium",
+        'In TOML: `density = { file = "smoke.npy" }`. '
+        "[Smoke](../how-to/media.md#smoke-from-a-grid).",
+        Density,
     ),
     ("cone of a material", "In TOML: `cone = { axis = [0, -1, 0], outer = 30 }`.", Cone),
     *((f"[[objects]] of shape {name}", NOTES.get(name, ""), KINDS[name]) for name in KINDS),

@@ -66,7 +66,7 @@ def scene_arrays(
 TEXTURED = (
     *("Mesh", "Corner", "Triangle", "Instance", "Tint"),
     *("Conductor", "Glass", "Gloss", "Albedo", "Emitter", "Aim", "Target", "Sides"),
-    *("Map", "Maps", "Axes", "Uv", "Tangent", "Medium", "Boundary", "Grid"),
+    *("Map", "Maps", "Axes", "Uv", "Tangent", "Medium", "Boundary"),
 )
 COUNTED = ("Node", "Slot", "Light")  # by the struct Frame, in addition to the numbered structs
 

@@ -28,10 +28,6 @@ class Placement(NamedTuple):
     linear: Floats  # (3, 3)
     origin: Floats  # (3,)
 
-    def diagonal(self, grid: "Grid") -> float:
-        """Return the length of the diagonal of the grid's box in the world."""
-        return float(np.linalg.norm(np.linalg.inv(self.linear) @ grid.voxels.shape[::-1]))
-
 
 def placement_of(scene: SceneFields, name: str) -> Placement:
     """Return the place of the grid of a medium whose file was read."""
@@ -63,7 +59,8 @@ def grid_of(scene: SceneFields, name: str) -> Grid:
 def steps_across(scene: SceneFields, name: str) -> int:
     """Return about how many steps a ray takes along the diagonal of a grid: bricks, collisions."""
     grid, place = grid_of(scene, name), placement_of(scene, name)
-    depth = max(scene.media[name].extinction) * grid.top * place.diagonal(grid)
+    diagonal = float(np.linalg.norm(np.linalg.inv(place.linear) @ grid.voxels.shape[::-1]))
+    depth = max(scene.media[name].extinction) * grid.top * diagonal
     return sum(grid.tops.shape) + math.ceil(depth * float(grid.tops.mean(dtype=np.float64)))
 
 

@@ -60,11 +60,10 @@ bool collides_in_grid(inout Path path, Medium medium, float distance) {
         path.throughput *= found.share;
         return false;
     }
-    Grid grid = grid_at(medium.grid);
-    vec3 rates = fictitious(grid, medium);
-    March march = enter_grid(grid, path.ray, distance);
+    vec3 rates = fictitious(medium);
+    March march = enter_grid(medium, path.ray, distance);
     while (march.way < march.end) {
-        float top = top_of_brick(grid, march.brick);
+        float top = top_of_brick(medium, march.brick);
         float rate = top * rates[path.flight.channel];
         float room = rate * (march.stop - march.way);
         bool is_met = path.flight.depth < room;
@@ -72,11 +71,11 @@ bool collides_in_grid(inout Path path, Medium medium, float distance) {
         path.flight.left *= share_left(top * rates, way);
         if (!is_met) {
             path.flight.depth -= room;
-            leave_brick(march, grid);
+            leave_brick(march, medium);
             continue;
         }
         march.way += way;
-        float density = density_at(grid, march.start + march.way * march.along);
+        float density = density_at(medium, march.start + march.way * march.along);
         vec3 real = density * medium.extinction;
         if (medium.emission != vec3(0.0)) {
             vec3 weight = path.flight.left / dot(path.flight.chances, path.flight.left * rates * top);
@@ -103,7 +102,7 @@ bool collides_in_grid(inout Path path, Medium medium, float distance) {
 bool collides(inout Path path, float distance) {
     if (path.flight.medium == NO_MEDIUM) return false;
     Medium medium = medium_at(path.flight.medium);
-    if (HAS_GRID && medium.grid != NO_GRID) return collides_in_grid(path, medium, distance);
+    if (HAS_GRID && has_grid(medium)) return collides_in_grid(path, medium, distance);
     gather_glow(path, medium, distance);
     if (medium.scattering == vec3(0.0)) {
         path.throughput *= share_left(medium.extinction, distance);

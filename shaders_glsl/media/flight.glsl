@@ -90,9 +90,15 @@ vec3 light_left(Ray ray, float distance, int lamp, int medium) {
     for (; passed <= MOST_HOLES; passed += 1u) {
         Hit hit = find_hit(ray, limit, is_shared ? NO_SHAPE : lamp, false);
         bool arrives = hit.shape == (is_shared ? lamp : NO_SHAPE);
-        if (HAS_GRID && is_uneven(medium)) left *= cross_grid(medium_at(medium), ray, hit.distance).share;
-        else if (medium != NO_MEDIUM) depth += hit.distance * medium_at(medium).extinction;
-        if (arrives) return left * vec3(decay(depth.x), decay(depth.y), decay(depth.z));
+        if (HAS_GRID && medium != NO_MEDIUM && has_grid(medium_at(medium))) {
+            left *= cross_grid(medium_at(medium), ray, hit.distance).share;
+        } else if (medium != NO_MEDIUM) {
+            depth += hit.distance * medium_at(medium).extinction;
+        }
+        if (arrives) {
+            left *= vec3(decay(depth.x), decay(depth.y), decay(depth.z));
+            return left;
+        }
         if (!HAS_HOLE || hit.shape == NO_SHAPE) return vec3(0.0);
         Surface surface = surface_at(ray, hit);
         if (!is_hole(material_of(ray, surface), passed)) return vec3(0.0);

@@ -9,6 +9,7 @@
 
 const float BRICK = 8.0;  // voxels along an edge of a brick: glrt/scene/files/named_grids.py
 
+const float LEAST_COLLISIONS = 4.0;
 const float NEARLY_ACROSS = 1e-20;  // along an axis, in place of 0, by which a length is divided
 
 uint null_state = 0u;  // random numbers of collisions: no draws of the sampler, as their count differs between paths
@@ -60,7 +61,7 @@ float end_of_brick(March self, out int axis) {
 }
 
 // Enters the grid's box; where the ray misses it, the march is at its end.
-March enter_grid(Grid grid, Ray ray, float limit) {
+March enter_grid(Medium grid, Ray ray, float limit) {
     March self;
     self.start = vec3(dot(grid.x, ray.origin) + grid.at_x, dot(grid.y, ray.origin) + grid.at_y,
                       dot(grid.z, ray.origin) + grid.at_z);
@@ -82,7 +83,7 @@ March enter_grid(Grid grid, Ray ray, float limit) {
 }
 
 // Goes on to the next brick.
-void leave_brick(inout March self, Grid grid) {
+void leave_brick(inout March self, Medium grid) {
     int axis;
     float end = end_of_brick(self, axis);
     int number = self.brick[axis] + (self.along[axis] > 0.0 ? 1 : -1);
@@ -97,15 +98,16 @@ void leave_brick(inout March self, Grid grid) {
 }
 
 // The density that no place in the brick exceeds.
-float top_of_brick(Grid grid, ivec3 brick) {
+float top_of_brick(Medium grid, ivec3 brick) {
     ivec3 count = (grid.size - 1) / int(BRICK) + 1;
+    int first = grid.first + grid.size.x * grid.size.y * grid.size.z;
     int number = (brick.z * count.y + brick.y) * count.x + brick.x;
-    float top = grid.top * voxel_at(grid.first_brick + number).x;
+    float top = grid.top * voxel_at(first + number).x;
     return top;
 }
 
 // The density at a place in voxels.
-float density_at(Grid grid, vec3 place) {
+float density_at(Medium grid, vec3 place) {
     vec3 at = clamp(place - 0.5, vec3(0.0), vec3(grid.size - 1));
     vec3 corner = floor(at);
     vec3 beyond = at - corner;
@@ -120,13 +122,17 @@ float density_at(Grid grid, vec3 place) {
     return density;
 }
 
-bool is_uneven(int medium) {
-    return medium != NO_MEDIUM && medium_at(medium).grid != NO_GRID;
+bool has_grid(Medium medium) {
+    return medium.size.x > 0;
 }
 
-// What the fictitious medium takes, per unit of length and of density.
-vec3 fictitious(Grid grid, Medium medium) {
-    return max(medium.extinction, vec3(grid.least));
+// The extinction of the fictitious medium, per unit of length and of density. A medium that shines collides
+// LEAST_COLLISIONS times on its way at least, on average, though it may take no light.
+vec3 fictitious(Medium medium) {
+    if (medium.emission == vec3(0.0) || medium.top == 0.0) return medium.extinction;
+    vec3 boxes = vec3(length(medium.x), length(medium.y), length(medium.z)) / vec3(medium.size);
+    float least = LEAST_COLLISIONS / medium.top * max(max(boxes.x, boxes.y), boxes.z);
+    return max(medium.extinction, vec3(least));
 }
 
 // The share of light that comes over this distance, with the light that the medium emits on it.
@@ -136,22 +142,21 @@ struct GridShare {
 };
 
 GridShare cross_grid(Medium medium, Ray ray, float distance) {
-    Grid grid = grid_at(medium.grid);
-    vec3 rates = fictitious(grid, medium);
+    vec3 rates = fictitious(medium);
     float rate = max(max(rates.x, rates.y), rates.z);
     GridShare found = GridShare(vec3(1.0), vec3(0.0));
-    March march = enter_grid(grid, ray, distance);
+    March march = enter_grid(medium, ray, distance);
     float depth = depth_of(next_of_collision());
     while (march.way < march.end) {
-        float top = top_of_brick(grid, march.brick);
+        float top = top_of_brick(medium, march.brick);
         float room = rate * top * (march.stop - march.way);
         if (depth >= room) {
             depth -= room;
-            leave_brick(march, grid);
+            leave_brick(march, medium);
             continue;
         }
         march.way += depth / (rate * top);
-        float density = density_at(grid, march.start + march.way * march.along);
+        float density = density_at(medium, march.start + march.way * march.along);
         float part = density / (rate * top);
         found.glow += found.share * part * medium.emission;
         found.share *= max(1.0 - part * medium.extinction, 0.0);

@@ -126,7 +126,7 @@ def test_a_wrong_stride_is_caught_though_every_offset_is_right(ctx: moderngl.Con
 def test_all_structs_of_the_shader_file_are_read() -> None:
     others = (
         "Corner Tint Triangle Instance Node Slot Material Emitter Conductor Glass Gloss Albedo Map "
-        "Maps Axes Uv Tangent Light Cluster Target Sides Aim Medium Boundary Grid "
+        "Maps Axes Uv Tangent Light Cluster Target Sides Aim Medium Boundary "
         "Camera Frame"
     )
     assert set(STRUCTS) == {*NUMBERED, *others.split()}

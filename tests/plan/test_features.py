@@ -19,6 +19,7 @@ from glrt.gpu.program import Kernel
 from glrt.plan.facts import MOST_NEAR, SPHERES_FROM, TREE_FROM, SceneFacts
 from glrt.plan.features import Needs, needs_of
 from glrt.scene import instancing
+from glrt.scene.density import Density
 from glrt.scene.medium import Medium
 from glrt.settings import settings_for
 from tests.support.builders import (
@@ -38,6 +39,7 @@ from tests.support.feature_probes import ALWAYS, GONE_TOO, NEEDED_TOO, PROBES
 from tests.support.kernel_text import written_for_everything
 from tests.support.meshes import mesh
 
+ONE_VOXEL = np.ones((1, 1, 1), np.float32)
 FLAGS = {name for name, value in EVERYTHING.items() if value is True}
 
 
@@ -170,7 +172,9 @@ def needs_with(flags: set[str]) -> Needs:
         **({"sun": {"elevation": 40, "irradiance": [1, 1, 1]}} if "HAS_SUN" in flags else {}),
     )
     if "HAS_MEDIA" in flags:  # without the checks: glass with a priority does not go with media
-        scene = scene.model_copy(update={"media": {"fog": Medium()}, "medium": "fog"})
+        grid = Density(ONE_VOXEL, min=(0, 0, 0), max=(1, 1, 1))
+        fog = Medium(density=grid if "HAS_GRID" in flags else None)
+        scene = scene.model_copy(update={"media": {"fog": fog}, "medium": "fog"})
     samples = bool(flags & {"SAMPLE_LIGHTS", "SAMPLE_SUN"})
     method = "mis" if "WEIGHT_BOTH" in flags else "nee" if samples else "naive"
     settings = settings_for(

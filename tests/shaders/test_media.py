@@ -80,7 +80,9 @@ def test_light_on_a_way_is_the_integral_of_what_is_left(call_glsl: CallGlsl) -> 
 FLIGHT = """
     Flight flight = start_flight(NO_MEDIUM);
     begin_flight(flight, throughput, rng);
-    Medium medium = Medium(scattering, 0.0, extinction, 0, vec3(0.0), 0);
+    Medium medium = medium_at(0);  // a row of zeros
+    medium.scattering = scattering;
+    medium.extinction = extinction;
     float d = flight.depth / extinction[flight.channel];
     bool collides = d < 0.7;
     flight.left *= share_left(extinction, min(d, 0.7));
