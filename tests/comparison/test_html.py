@@ -58,7 +58,7 @@ def encoded(radiance: Any, stops: float = 0.0) -> list[int]:
 def test_the_page_needs_no_network_and_shows_what_differs_first(page: Path) -> None:
     text = page.read_text()
     assert not re.search(r"https?:|@import|src=|url\(", text)
-    assert text.count("</script>") == 2, "a name does not end the data"
+    assert text.count("</script>") == 3, "a name does not end the data"
     entries = json.loads(re.search(r'application/json">(.*?)</script>', text, re.DOTALL)[1])  # type: ignore[index]
     assert [entry["title"] for entry in entries] == ["</script><b>room", "same"]
     assert entries[0]["verdict"] == "different"
