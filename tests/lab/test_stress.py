@@ -99,9 +99,9 @@ def run(monkeypatch: pytest.MonkeyPatch) -> Callable[..., int]:
 def test_a_run_writes_table_figures_and_charts(
     run: Callable[..., int], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert run("lamp", "distance", "lamp", "-o", tmp_path / "new" / "folder") == 0
     target = tmp_path / "new" / "folder"
-    names = {"stress.md", "stress.csv", "overview.png", "lamp.svg", "distance.svg"}
+    assert run("lamp", "distance", "lamp", "-o", target, "--html", target / "page.html") == 0
+    names = {"page.html", "stress.md", "stress.csv", "overview.png", "lamp.svg", "distance.svg"}
     assert {file.name for file in target.iterdir()} == names
     told = capsys.readouterr()
     assert told.out == (target / "stress.md").read_text() + "\n"
@@ -150,6 +150,10 @@ def test_what_cannot_be_run_is_refused_before_anything_is_measured(
     assert all(name in said for name in CASES)
     assert run("lamp") == 2
     assert "-o DIR" in capsys.readouterr().err
+    assert run("lamp", "-o", tmp_path / "made", "--html", tmp_path / "no" / "page.html") == 2
+    assert f"there is no folder {tmp_path / 'no'}" in capsys.readouterr().err
+    assert run("lamp", "-o", tmp_path / "made", "--html", tmp_path / "page.pdf") == 2
+    assert "--html must end in .html" in capsys.readouterr().err
     (tmp_path / "file").touch()
     assert run("lamp", "-o", tmp_path / "file") == 2
     (tmp_path / "taken" / "lamp.svg").mkdir(parents=True)
