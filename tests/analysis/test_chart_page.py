@@ -209,7 +209,8 @@ def test_a_chart_shows_the_front_the_default_and_the_baseline_at_first(tmp_path:
     save_chart_page([section], file, "Speed against accuracy", "")
     script = """
     const section = sections[0], all = section.node.querySelectorAll("button");
-    const shown = () => section.charts.map(it => it.svg.querySelectorAll("[data-curve=slow]").length);
+    const slow = it => it.svg.querySelectorAll("[data-curve=slow]").length;
+    const shown = () => section.charts.map(slow);
     const named = name => [...all].find(it => it.textContent === name);
     found = [shown()];
     named("slow").click(); found.push(shown());
