@@ -1,7 +1,8 @@
 """The load of the machine by frames: frames a second, share of the processors, share of the GPU.
 
-The share of the GPU is what its driver reports for the last fraction of a second, of all programs.
-It comes from NVIDIA's management library, by the package nvidia-ml-py (the extra `gpu`).
+The share of the GPU is the time in which any program ran on it, over the last sixth of a second to
+a second, as NVIDIA's management library (NVML, nvmlDeviceGetUtilizationRates) reports it. Python
+reads it by the package nvidia-ml-py, the extra `gpu`.
 """
 
 import os
@@ -10,7 +11,8 @@ from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 MISSING = "nvidia-ml-py is not installed: pip install 'glrt[gpu]'"
-_VENDOR = "nvidia"
+_VENDOR = "NVIDIA "  # before the names of GPUs, except in old drivers
+_ENDING = "/SSE2"  # of the names that NVIDIA's OpenGL driver gives
 
 
 class Load(NamedTuple):
@@ -85,7 +87,7 @@ def mean_of(loads: Sequence[Load]) -> Load:
 
 def gpu_of(renderer: str) -> Gpu:
     """Find the GPU of this name that the OpenGL driver gives, as "NVIDIA H100 PCIe/PCIe/SSE2"."""
-    if _VENDOR not in renderer.lower():
+    if not renderer.startswith(_VENDOR) and not renderer.endswith(_ENDING):
         return _unknown("this driver reports no load")
     try:
         import pynvml
@@ -115,8 +117,8 @@ def _share(pynvml: Any, handle: Any) -> float | None:
 
 
 def _is_named(name: str, renderer: str) -> bool:
-    """Whether OpenGL's name is that of a GPU: it has the bus and the instructions behind it."""
-    return renderer.partition("/")[0].strip() == name.strip()
+    """Whether OpenGL's name is that of a GPU: the bus and the instruction set follow in it."""
+    return renderer.partition("/")[0].removeprefix(_VENDOR) == name.removeprefix(_VENDOR)
 
 
 def _text(name: str | bytes) -> str:

@@ -113,7 +113,9 @@ def test_the_page_needs_no_network_and_holds_every_value(page: Path) -> None:
 def test_a_point_is_read_by_mouse_and_by_keys(page: Path) -> None:
     script = f"""{POINT}
     move(10, 0.1);
+    const tip = chart.tip.getBoundingClientRect();
     found = {{ near: chart.tip.textContent, shown: !chart.tip.hidden }};
+    found.inside = tip.top > box.top && tip.bottom < box.bottom && tip.left >= box.left;
     move(3, 0.03);
     found.far = chart.tip.hidden;
     press("ArrowRight"); found.first = chart.tip.textContent;
@@ -125,6 +127,7 @@ def test_a_point_is_read_by_mouse_and_by_keys(page: Path) -> None:
     assert found == {
         "near": "naivesize 10: 0.1",
         "shown": True,
+        "inside": True,
         "far": True,
         "first": "ourssize 1: 0.001",
         "second": "ourssize 10: 0",

@@ -57,6 +57,7 @@ def test_the_gpu_of_the_renderer_is_read_among_several(monkeypatch: pytest.Monke
     assert (gpu.read(), gpu.unknown) == (0.1, "")
     shares[1] = 88
     assert gpu.read() == 0.88
+    assert gpu_of("T4/PCIe/SSE2").read() == 0.0, "old drivers leave the vendor out"
 
 
 def test_an_unknown_share_has_a_reason(monkeypatch: pytest.MonkeyPatch) -> None:
