@@ -171,13 +171,14 @@ def test_zeros_are_hollow_at_the_bottom(page: Path) -> None:
     assert found["bottom"] > found["least"]
 
 
-@pytest.mark.parametrize("width", [390, 1000])
-def test_the_page_fits_and_draws(page: Path, width: int, tmp_path: Path) -> None:
+@pytest.mark.parametrize(("width", "dark"), [(390, False), (1000, True)])
+def test_the_page_fits_and_draws(page: Path, width: int, dark: bool, tmp_path: Path) -> None:
     script = "found = document.documentElement.scrollWidth - innerWidth;"
     assert found_in(page, script, width) <= 0, "the page scrolls sideways"
-    screenshot(page, tmp_path / "page.png", width, 900)
+    screenshot(page, tmp_path / "page.png", width, 900, dark)
     with Pillow.open(tmp_path / "page.png") as shown:
         codes = np.asarray(shown.convert("RGB")).astype(int)
+    assert (np.median(codes) < 64) == dark, "the ground"
     orange = (codes[..., 0] > codes[..., 2] + 150).mean()
     assert orange > 2e-4, "the curve of the naive method"
 
