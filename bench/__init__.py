@@ -14,6 +14,7 @@ Programs, `python -m bench.NAME`; `--help` lists their options:
 - mesh_sizes: speed and memory by the number of triangles
 - roofline: the speed of the kernel relative to the peak of the machine
 - memory: the memory of a render, by its uses
+- load: frames a second and the load of the machine, as the thesis reports them
 - rivals: time to an error of 2 %, against other renderers
 - unseen: the lead over Mitsuba on scenes drawn from a hash of the program
 - doubt: how often the judgement on an estimated error is wrong, on new scenes
@@ -42,6 +43,7 @@ They share:
 - turns: renderers that take turns, and whether that costs them speed
 - against_side: one side of `against`, which may import a much older glrt
 - gpu_way: one route, pipeline and tier, measured in a process of its own for `gpu`
+- load_side: frames of one scene, drawn in a process of its own for `load`
 - checkouts: another commit in a temporary folder
 - ratios: ratios of times from interleaved rounds, with intervals
 - contest: one renderer against another, from many renders

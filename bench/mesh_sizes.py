@@ -15,7 +15,7 @@ from unittest.mock import patch
 import numpy as np
 
 from bench.program import add_rounds, exit_code_of, machine, parser_of
-from bench.ratios import Ratio, ratio_of
+from bench.ratios import LEAST_ROUNDS, Ratio, ratio_of
 from glrt.gpu.context import Context, open_context
 from glrt.packing.scene_arrays import pack_scene
 from glrt.packing.scene_tree import tree_of
@@ -207,7 +207,7 @@ def _parser() -> argparse.ArgumentParser:
     parser = parser_of("mesh_sizes", __doc__)
     told = "times that each triangle of an icosahedron is divided in four"
     parser.add_argument("--steps", type=int, nargs="+", metavar="K", default=STEPS, help=told)
-    add_rounds(parser, size=128, rounds=7)
+    add_rounds(parser, 128, 7, LEAST_ROUNDS)
     return parser
 
 

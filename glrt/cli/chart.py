@@ -16,11 +16,14 @@ from typing import Any, get_args
 from glrt.analysis.chart import files as method_files
 from glrt.analysis.chart.experiment import Plan, Tell, frame_of, measure_scene
 from glrt.analysis.chart.files import save_chart
+from glrt.analysis.chart.sections import section_of
+from glrt.analysis.chart_page import save_chart_page
+from glrt.analysis.motion import report as motion
 from glrt.analysis.motion.measure import TrackPlan, tracks_of
 from glrt.analysis.motion.report import PAGE, save_page, save_tracks
-from glrt.analysis.plot import MOST_CURVES, check_matplotlib
+from glrt.analysis.outputs import Outputs, prepare_outputs
+from glrt.analysis.plot import MOST_CURVES
 from glrt.cli.options import SCENE, add_context, add_files, file_rules
-from glrt.core import files
 from glrt.core.errors import UsageError
 from glrt.gpu.context import Choice, open_context
 from glrt.image.sources import STANDARD_INPUT, FileRules, load_recipe
@@ -36,7 +39,7 @@ from glrt.scene.scene import Scene
 
 DESCRIPTION = (
     "Measure the error of every method against its time; write charts (SVG, PNG), figures (CSV, "
-    "JSON) and a summary (chart.md)."
+    "JSON) and a summary (chart.md) into a folder, or a page (HTML)."
 )
 EPILOG = (
     "The same command continues after an interruption. References are kept in the user's cache "
@@ -48,7 +51,13 @@ EPILOG = (
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the command to its parser."""
     parser.add_argument("scenes", metavar="SCENE", nargs="+", help=SCENE)
-    parser.add_argument("-o", dest="output", metavar="DIR", required=True, help="output folder")
+    parser.add_argument("-o", dest="output", metavar="DIR", help="output folder")
+    parser.add_argument(
+        "--html",
+        metavar="FILE",
+        help="a .html file with all charts and tables, whose curves can be read and switched; "
+        "without -o, only this is written, and an interrupted run is lost",
+    )
     for name, default, kind, text in (
         ("height", 64, int, "height of the pictures in pixels"),
         ("rounds", 5, int, "runs of each variant"),
@@ -95,7 +104,6 @@ _LIMITS = {"height": (8, 4096), "rounds": (2, 1000), "seconds": (0.1, 1e6)}
 
 def run(arguments: argparse.Namespace) -> int:
     """Write a chart of each scene and one page for all of them; return the exit code."""
-    check_matplotlib()
     plan, ways, kept = _plan(arguments), _ways(arguments), _hysteresis(arguments)
     if (curves := len(ways) + len(kept) + bool(kept)) > MOST_CURVES:
         raise UsageError(
@@ -103,27 +111,32 @@ def run(arguments: argparse.Namespace) -> int:
             "of --temporal, --predictor, --traced or --hysteresis."
         )
     scenes = _scenes(arguments.scenes, file_rules(arguments))
-    folder = Path(arguments.output)
-    files.make_folder(folder, PAGE if ways else "chart.md")
+    page = PAGE if ways else "chart.md"
+    outputs = prepare_outputs(arguments.output, arguments.html, [page])
     with Interruption().watched() as interruption:
         try:
             with _progress(arguments.quiet) as tell:
                 report_or_stop = _stopping(tell, interruption)
                 work = partial(_temporal, TrackPlan(ways, kept, REFERENCE)) if ways else _chart
-                page = work(scenes, plan, folder, arguments.context, report_or_stop)
+                work(scenes, plan, outputs, arguments.context, report_or_stop)
         except KeyboardInterrupt:
-            print(
-                f"glrt: interrupted; the rounds so far are kept in {file_names([folder])}, and the "
-                "same command continues from there.",
-                file=sys.stderr,
-            )
+            print(f"glrt: interrupted; {_left(outputs.folder)}.", file=sys.stderr)
             return INTERRUPTED + (interruption.signal or 0)
     if not arguments.quiet:
-        print(
-            f"Wrote {file_names([page])} and the charts of {file_names([*scenes])}.",
-            file=sys.stderr,
-        )
+        pages = [outputs.folder / page if outputs.folder else None, outputs.page]
+        written = file_names([path for path in pages if path])
+        print(f"Wrote {written} and the charts of {file_names([*scenes])}.", file=sys.stderr)
     return 0
+
+
+def _left(folder: Path | None) -> str:
+    """Return what an interruption leaves."""
+    if folder is None:
+        return "nothing is written"
+    return (
+        f"the rounds so far are kept in {file_names([folder])}, and the same command continues "
+        "from there"
+    )
 
 
 def _stopping(tell: Tell, interruption: Interruption) -> Tell:
@@ -137,25 +150,45 @@ def _stopping(tell: Tell, interruption: Interruption) -> Tell:
     return report_or_stop
 
 
-def _chart(scenes: dict[str, Scene], plan: Plan, folder: Path, route: Choice, tell: Tell) -> Path:
+def _chart(
+    scenes: dict[str, Scene], plan: Plan, outputs: Outputs, route: Choice, tell: Tell
+) -> None:
     context = open_context(route)
     experiments = []
+    folder = outputs.folder
     for number, (name, scene) in enumerate(scenes.items()):
 
         def report_all(text: str, share: float, before: int = number) -> None:
             tell(text, (before + share) / len(scenes))
 
-        rounds = folder / f"{name}.rounds.json"
+        rounds = folder / f"{name}.rounds.json" if folder else None
         experiments.append(measure_scene(name, scene, plan, context, rounds, report_all))
-        save_chart(experiments[-1], folder)
-    return method_files.save_page(experiments, folder)
+        if folder:
+            save_chart(experiments[-1], folder)
+    if folder:
+        method_files.save_page(experiments, folder)
+    if outputs.page:
+        found = [section_of(experiment) for experiment in experiments]
+        save_chart_page(found, outputs.page, "Speed against accuracy", _ABOUT)
+
+
+_ABOUT = (
+    "Relative RMS error against a reference, by the time of all dispatches and by rays. Times are "
+    "medians; bands are 95 % intervals over the rounds. At first the charts show the curves on "
+    "the Pareto front, the baseline and the default."
+)
 
 
 def _temporal(
-    shown: TrackPlan, scenes: dict[str, Scene], plan: Plan, folder: Path, route: Choice, tell: Tell
-) -> Path:
+    shown: TrackPlan,
+    scenes: dict[str, Scene],
+    plan: Plan,
+    outputs: Outputs,
+    route: Choice,
+    tell: Tell,
+) -> None:
     context = open_context(route)
-    tracks = []
+    tracks, sections = [], []
     for number, (name, scene) in enumerate(scenes.items()):
 
         def report_all(text: str, share: float, before: int = number) -> None:
@@ -163,9 +196,17 @@ def _temporal(
 
         settings = frame_of(scene, plan.height)
         found = tracks_of(name, scene, settings, context, shown, report_all)
-        save_tracks(name, scene.title or name, found, folder)
+        title = scene.title or name
+        if outputs.folder:
+            save_tracks(name, title, found, outputs.folder)
         tracks += found
-    return save_page(tracks, f"Pictures are {plan.height} pixels high.", folder)
+        sections.append(motion.section_of(name, title, found))
+    size = f"Pictures are {plan.height} pixels high."
+    if outputs.folder:
+        save_page(tracks, size, outputs.folder)
+    if outputs.page:
+        about = f"Relative RMS error of what is on the screen. {size}"
+        save_chart_page(sections, outputs.page, "Error while something moves", about)
 
 
 def _ways(arguments: argparse.Namespace) -> tuple[Way, ...]:

@@ -13,6 +13,7 @@ from glrt.comparison.result import CHANNELS, Comparison
 from glrt.comparison.verdict import compare
 from glrt.core import files
 from glrt.core.errors import UsageError
+from glrt.core.web_page import check_page
 from glrt.image.image import Image
 
 DESCRIPTION = (
@@ -73,9 +74,9 @@ def run(arguments: argparse.Namespace) -> int:
     image = read(arguments.image, arguments.samples, "--samples")
     reference = read(arguments.reference, arguments.reference_samples, "--reference-samples")
     if arguments.picture:
-        _check_ending(arguments.picture, "--picture", ".png")
+        _check_picture(arguments.picture)
     if arguments.html:
-        _check_ending(arguments.html, "--html", ".html")
+        check_page(arguments.html, "--html")
     groups = light_groups(image, arguments.image) if arguments.groups else {}
     comparison = compare(image, reference, arguments.alpha, arguments.bias, groups=groups)
     if arguments.picture:
@@ -156,9 +157,9 @@ def _plain(value: Any) -> Any:
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
-def _check_ending(path: str, option: str, ending: str) -> None:
-    if not path.lower().endswith(ending):
-        raise UsageError(f"Cannot write {path}: the file of {option} must end in {ending}.")
+def _check_picture(path: str) -> None:
+    if not path.lower().endswith(".png"):
+        raise UsageError(f"Cannot write {path}: the file of --picture must end in .png.")
     files.check_writable(Path(path))
 
 

@@ -5,11 +5,11 @@ import json
 import sys
 import time
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
-from glrt.analysis.plot import check_matplotlib
+from glrt.analysis.outputs import Outputs, prepare_outputs
 from glrt.cli.options import add_context
-from glrt.core import files
 from glrt.core.errors import UsageError
 from glrt.core.text import nearest, quoted
 from glrt.gpu.context import open_context
@@ -32,6 +32,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("cases", metavar="CASE", nargs="*", help="case to run (default: all)")
     add("-o", dest="folder", metavar="DIR", type=Path, help="output folder")
+    add(
+        "--html",
+        metavar="FILE",
+        help="a .html file with charts that can be read, values and pictures; without -o, only "
+        "this is written",
+    )
     add("--quick", action="store_true", help="an eighth of the samples")
     add("--list", action="store_true", help="list the cases and run none")
     add("--json", action="store_true", help="print figures as one line of JSON")
@@ -48,11 +54,14 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.list:
         print("\n".join(f"{case.name:<10} {case.title}" for case in cases))
         return 0
-    folder = _prepared(arguments.folder, cases)
+    outputs = _prepared(arguments, cases)
     context = open_context(arguments.context, "compute")
-    lab = Lab(context, QUICK if arguments.quick else 1.0)
+    lab = Lab(context, QUICK if arguments.quick else 1.0, [] if outputs.page else None)
     findings = [_run(case, lab) for case in cases]
-    report.save(findings, folder, context.renderer)
+    if outputs.folder:
+        report.save(findings, outputs.folder, context.renderer)
+    if outputs.page:
+        report.save_page(findings, outputs.page, context.renderer)
     summary = json.dumps(report.summary(findings))
     print(summary if arguments.json else report.table(findings, context.renderer), flush=True)
     context.gl.release()
@@ -69,19 +78,18 @@ def known_cases(names: Sequence[str]) -> list[Case]:
     return [CASES[name] for name in dict.fromkeys(names)] or list(CASES.values())
 
 
-def _prepared(folder: Path | None, cases: Sequence[Case]) -> Path:
-    """Create the output folder and check that it is writable, before anything is measured."""
-    if folder is None:
-        raise UsageError("the output folder is missing: glrt stress -o DIR.")
-    check_matplotlib()
+def _prepared(arguments: argparse.Namespace, cases: Sequence[Case]) -> Outputs:
+    """Create the output folder and check that outputs are writable, before anything is measured."""
     charts = [f"{case.name}.svg" for case in cases]
-    files.make_folder(folder, report.TABLE, report.FIGURES, report.OVERVIEW, *charts)
-    return folder
+    names = [report.TABLE, report.FIGURES, report.OVERVIEW, *charts]
+    return prepare_outputs(arguments.folder, arguments.html, names)
 
 
 def _run(case: Case, lab: Lab) -> Finding:
     start = time.perf_counter()
-    finding = Finding(case, case.run(lab), time.perf_counter() - start)
+    own = lab if lab.rendered is None else replace(lab, rendered=[])  # its pictures alone
+    sweep = case.run(own)
+    finding = Finding(case, sweep, time.perf_counter() - start, own.rendered or ())
     if sys.stderr.isatty():
         print(f"{case.name}: {finding.verdict}, {finding.seconds:.1f} s", file=sys.stderr)
     return finding

@@ -6,9 +6,7 @@ screen are those of the tone curve `none`.
 
 import base64
 import gzip
-import json
 from collections.abc import Sequence
-from importlib.resources import files as resources
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -16,7 +14,7 @@ import numpy as np
 
 from glrt.comparison.heatmap import colors, strongest
 from glrt.comparison.result import CHANNELS, Comparison, percent
-from glrt.core import files
+from glrt.core.web_page import save_web_page
 from glrt.image.image import Image
 
 LARGEST = 65504.0  # the largest half float
@@ -34,9 +32,7 @@ class Compared(NamedTuple):
 def save_page(entries: Sequence[dict[str, Any]], path: str | Path) -> None:
     """Write a page of entries, pictures that differ first. RenderError if it cannot be written."""
     ordered = sorted(entries, key=lambda entry: (entry["verdict"] != "different", entry["title"]))
-    data = json.dumps(ordered).replace("<", "\\u003c")  # no tag may end the script
-    template = (resources("glrt.comparison") / "report.html").read_text("utf-8")
-    files.write_text(Path(path), template.replace("__DATA__", data))
+    save_web_page(path, "glrt: compared pictures", ordered, ("glrt.comparison", "report.html"))
 
 
 def entry_of(compared: Compared) -> dict[str, Any]:

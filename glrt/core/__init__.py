@@ -7,5 +7,6 @@ Modules, each importing only what stands above it:
 - errors: error classes, with their exit codes
 - resources: folders of shaders and scenes, and of the user
 - files: atomic writes: a file is complete or absent
+- web_page: pages that need no network
 - memo: cache of results by the identity of the arguments
 """

@@ -1,4 +1,4 @@
-"""Findings as a Markdown table, as CSV and as charts."""
+"""Findings as a Markdown table, as CSV, as charts and as a page."""
 
 import csv
 import io
@@ -6,12 +6,23 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from glrt.analysis.chart_page import (
+    LEAST_SIDE,
+    Picture,
+    Section,
+    axes_of,
+    save_chart_page,
+    small_picture,
+    table_of,
+)
 from glrt.analysis.plot import save_chart, save_sheet
 from glrt.core import files
 from glrt.core.version import VERSION
+from glrt.image.image import Image
 from glrt.lab.sweep import Finding
 
 TABLE, FIGURES, OVERVIEW = "stress.md", "stress.csv", "overview.png"
+MOST_PICTURES = 8  # of a case on a page
 
 
 def table(findings: Sequence[Finding], renderer: str) -> str:
@@ -58,6 +69,40 @@ def save(findings: Sequence[Finding], folder: Path, renderer: str) -> None:
     for finding in findings:
         save_chart(finding.chart(), folder / f"{finding.case.name}.svg")
     save_sheet([finding.small_chart() for finding in findings], folder / OVERVIEW, _title(findings))
+
+
+def save_page(findings: Sequence[Finding], path: Path, renderer: str) -> None:
+    """Write a page that needs no network: chart, values and pictures of each case."""
+    about = f"glrt {VERSION} on {renderer}. Each picture is exposed by itself."
+    sections = [_section(finding) for finding in findings]
+    save_chart_page(sections, path, _title(findings), about)
+
+
+def _section(finding: Finding) -> Section:
+    chart, case = finding.chart(), finding.case
+    return Section(
+        name=case.name,
+        title=f"{case.name}: {case.title}",
+        lines=[f"Guarantee: {finding.sweep.promise}. It took {finding.seconds:.1f} s."],
+        charts=[axes_of(chart)],
+        tables=[table_of(chart)],
+        verdict=finding.verdict,
+        holds=finding.holds,
+        pictures=_pictures(finding.rendered),
+    )
+
+
+def _pictures(rendered: Sequence[Image]) -> list[Picture]:
+    """At most MOST_PICTURES of the pictures of a case, evenly over its run."""
+    seen = [it for it in rendered if min(it.radiance.shape[:2]) >= LEAST_SIDE]
+    step = -(-len(seen) // MOST_PICTURES) or 1
+    places = range(0, len(seen), step)
+    return [small_picture(seen[n], _caption(seen[n], n + 1, len(seen))) for n in places]
+
+
+def _caption(image: Image, number: int, count: int) -> str:
+    method = f", {image.recipe.settings.method}" if image.recipe else ""
+    return f"picture {number} of {count}{method}, {image.samples} samples"
 
 
 def _title(findings: Sequence[Finding]) -> str:

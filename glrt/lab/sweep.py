@@ -65,6 +65,7 @@ class Lab:
 
     context: Context
     scale: float = 1.0  # factor on the numbers of samples and rows
+    rendered: list[Image] | None = None  # receives every picture; None: nobody wants them
 
     def count(self, full: int, least: int = 16) -> int:
         """The number of rows or samples in a run of this scale, where a full run has `full`."""
@@ -97,6 +98,8 @@ class Lab:
         renderer = Renderer(scene, context=self.context, tier="baked", variant=variant, **wanted)
         try:
             yield renderer
+            if self.rendered is not None and renderer.samples:
+                self.rendered.append(renderer.image())
         finally:
             renderer.release()
 
@@ -124,6 +127,7 @@ class Finding:
     case: Case
     sweep: Sweep
     seconds: float
+    rendered: Sequence[Image] = ()  # pictures of the case, in its order
 
     @property
     def holds(self) -> bool:

@@ -6,4 +6,5 @@ Modules, each importing only what stands above it:
 - signals: Ctrl-C, SIGTERM and SIGHUP
 - command: standard streams, age and memory of the process
 - silence: suppresses output of compiled libraries
+- load: frames a second, share of processors and GPU
 """

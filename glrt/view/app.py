@@ -9,6 +9,7 @@ from pathlib import Path
 
 from glrt.core.errors import GlrtError
 from glrt.gpu.glsl import files_reread
+from glrt.process.load import LoadMeter
 from glrt.rendering.history.temporal import Way
 from glrt.scene.scene import Scene
 from glrt.scene.shapes.kinds import Shape
@@ -72,6 +73,7 @@ class App(CameraMoves):
     outside: tuple[float, float] = (35.0, 25.0)  # degrees, of the view of paths from outside
     frame_seconds: float = 0.0
     sampling_seconds: float = 0.0  # of the last frame: for edits and samples
+    load: LoadMeter = field(init=False)
     progress: Progress = field(default_factory=Progress)
     blackness: Blackness = field(default_factory=Blackness)
     unsaved: bool = False  # whether preferences must be written
@@ -82,6 +84,7 @@ class App(CameraMoves):
 
     def __post_init__(self, source: str) -> None:
         """Create the parts that depend on the session and on the opened source."""
+        self.load = LoadMeter(self.session.context.renderer)
         self.paths = PathExplorer(self.session.context)
         self.silhouette = Silhouette(self.session.context.gl)
         self.pair = Pair(self.session, self.show, self.restart)

@@ -185,6 +185,7 @@ class Window:
         app, now = self.app, time.perf_counter()
         app.frame_seconds = now - self._began
         app.pace.record(app.frame_seconds, app.sampling_seconds)
+        app.load.look()
         self._began = now
         app.pace.frames_per_second = app.preferences.frame_rate or self._rate
         draw_keys(app)

@@ -77,9 +77,10 @@ def charted(tmp_path_factory: pytest.TempPathFactory, cache: str, scenes: Path) 
     """The folder of their charts."""
     folder = tmp_path_factory.mktemp("charts") / "new" / "folder"
     files = [scenes / f"{name}.toml" for name in TITLES]
-    done = glrt("chart", *files, "-o", folder, *QUICK, XDG_CACHE_HOME=cache)
+    page = folder / "page.html"
+    done = glrt("chart", *files, "-o", folder, "--html", page, *QUICK, XDG_CACHE_HOME=cache)
     assert done.returncode == 0, done.stderr
-    assert done.stderr == f"Wrote {folder}/chart.md and the charts of lamp, sky.\n"
+    assert done.stderr == f"Wrote {folder}/chart.md, {page} and the charts of lamp, sky.\n"
     return folder
 
 
@@ -95,7 +96,7 @@ def table(folder: Path, name: str) -> list[dict[str, str]]:
 def test_every_scene_gets_its_files_and_one_page_shows_all(charted: Path) -> None:
     suffixes = ("csv", "json", "png", "rounds.json", "svg")
     expected = {f"{name}.{suffix}" for name in TITLES for suffix in suffixes}
-    assert {file.name for file in charted.iterdir()} == expected | {"chart.md"}
+    assert {file.name for file in charted.iterdir()} == expected | {"chart.md", "page.html"}
     page = (charted / "chart.md").read_text()
     for name, title in TITLES.items():
         assert f"![Error against time for {name}]({name}.svg)" in page
@@ -267,7 +268,10 @@ def test_variants_beyond_the_loop_limit_are_left_out(
         (["cornell", "-o", "there", "--seconds", "nan"], "--seconds must be from 0.1"),
         (["cornell", "scenes/cornell.toml", "-o", "there"], "Two scenes are called cornell"),
         (["cornell", "-o", "file"], "Cannot make the folder file"),
-        (["cornell"], "required: -o"),
+        (["cornell"], "give -o DIR, --html FILE, or both"),
+        (["cornell", "-o", "there", "--html", "page.pdf"], "--html must end in .html"),
+        (["cornell", "-o", "there", "--html", "nowhere/page.html"], "there is no folder nowhere"),
+        (["cornell", "--html", "file/page.html"], "Cannot write file/page.html"),
     ],
 )
 def test_a_bad_command_is_refused_in_a_paragraph(

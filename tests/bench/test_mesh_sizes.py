@@ -36,6 +36,12 @@ def test_the_command_prints_the_machine_and_the_table(capsys: pytest.CaptureFixt
     assert "peak memory" in told
 
 
+def test_rounds_that_give_no_interval_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit, match="2"):
+        main(["--rounds", "5"])
+    assert "--rounds: 5 is less than 6" in capsys.readouterr().err
+
+
 def test_the_clutter_has_its_triangles() -> None:
     scene = cluttered()
     of_balls = [len(mesh.triangles.faces) for mesh in scene.meshes if mesh.material != "wall"]

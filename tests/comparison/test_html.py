@@ -58,7 +58,7 @@ def encoded(radiance: Any, stops: float = 0.0) -> list[int]:
 def test_the_page_needs_no_network_and_shows_what_differs_first(page: Path) -> None:
     text = page.read_text()
     assert not re.search(r"https?:|@import|src=|url\(", text)
-    assert text.count("</script>") == 2, "a name does not end the data"
+    assert text.count("</script>") == 3, "a name does not end the data"
     entries = json.loads(re.search(r'application/json">(.*?)</script>', text, re.DOTALL)[1])  # type: ignore[index]
     assert [entry["title"] for entry in entries] == ["</script><b>room", "same"]
     assert entries[0]["verdict"] == "different"
@@ -125,13 +125,16 @@ def test_exposure_and_zoom_act_on_the_framed_picture(
     assert found["modes"] == ["reference", "new"]
 
 
-@pytest.mark.parametrize("width", [390, 1000])
-def test_the_page_fits_and_shows_its_pictures(page: Path, width: int, tmp_path: Path) -> None:
-    wide = found_in(page, "found = document.documentElement.scrollWidth - innerWidth;", width)
-    assert wide <= 0, "the page scrolls sideways"
-    screenshot(page, tmp_path / "page.png", width, 900)
+@pytest.mark.parametrize(("width", "dark"), [(390, False), (1000, True)])
+def test_the_page_fits_and_shows_its_pictures(
+    page: Path, width: int, dark: bool, tmp_path: Path
+) -> None:
+    script = "found = document.documentElement.scrollWidth - innerWidth;"
+    assert found_in(page, script, width) <= 0, "the page scrolls sideways"
+    screenshot(page, tmp_path / "page.png", width, 900, dark)
     with Pillow.open(tmp_path / "page.png") as shown:
         codes = np.asarray(shown.convert("RGB")).astype(int)
+    assert (np.median(codes) < 64) == dark, "the ground"
     reddish = (codes[..., 0] > codes[..., 1] + 60).mean()
     assert reddish > 0.01, "the red wall of the room"
 

@@ -15,9 +15,12 @@ from glrt.cli.main import main
 from glrt.core.resources import folder
 from glrt.gpu import glsl
 from glrt.gpu.context import Context
-from glrt.lab import report
+from glrt.image.image import Image
+from glrt.image.sources import load
+from glrt.lab import report, sweep
 from glrt.lab.cases import CASES
 from glrt.lab.sweep import Case, Finding, Lab, Sweep
+from glrt.scene.scene import Scene
 from tests.support.alarms import book
 
 TINY = 1 / 64
@@ -62,16 +65,16 @@ def test_every_case_holds_and_distinguishes_the_naive_method_from_the_chosen(
     context: Context, name: str
 ) -> None:
     lab = Lab(context, TINY)
-    sweep = CASES[name].run(lab)
+    found = CASES[name].run(lab)
     book(VERDICTS.get(name, 0))
-    assert sweep.broken() == []
-    curves = [sweep.chosen[1], *sweep.others.values()]
-    assert all(len(curve) == len(sweep.x) > 3 for curve in curves)
+    assert found.broken() == []
+    curves = [found.chosen[1], *found.others.values()]
+    assert all(len(curve) == len(found.x) > 3 for curve in curves)
     assert np.isfinite(curves).all()
     assert np.min(curves) >= 0
-    if sweep.bound is not None:
-        naive = next(iter(sweep.others.items()))
-        assert replace(sweep, chosen=naive).broken() != []
+    if found.bound is not None:
+        naive = next(iter(found.others.items()))
+        assert replace(found, chosen=naive).broken() != []
 
 
 def test_a_guarantee_holds_where_it_is_given_and_nowhere_else() -> None:
@@ -99,9 +102,9 @@ def run(monkeypatch: pytest.MonkeyPatch) -> Callable[..., int]:
 def test_a_run_writes_table_figures_and_charts(
     run: Callable[..., int], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert run("lamp", "distance", "lamp", "-o", tmp_path / "new" / "folder") == 0
     target = tmp_path / "new" / "folder"
-    names = {"stress.md", "stress.csv", "overview.png", "lamp.svg", "distance.svg"}
+    assert run("lamp", "distance", "lamp", "-o", target, "--html", target / "page.html") == 0
+    names = {"page.html", "stress.md", "stress.csv", "overview.png", "lamp.svg", "distance.svg"}
     assert {file.name for file in target.iterdir()} == names
     told = capsys.readouterr()
     assert told.out == (target / "stress.md").read_text() + "\n"
@@ -150,6 +153,10 @@ def test_what_cannot_be_run_is_refused_before_anything_is_measured(
     assert all(name in said for name in CASES)
     assert run("lamp") == 2
     assert "-o DIR" in capsys.readouterr().err
+    assert run("lamp", "-o", tmp_path / "made", "--html", tmp_path / "no" / "page.html") == 2
+    assert f"there is no folder {tmp_path / 'no'}" in capsys.readouterr().err
+    assert run("lamp", "-o", tmp_path / "made", "--html", tmp_path / "page.pdf") == 2
+    assert "--html must end in .html" in capsys.readouterr().err
     (tmp_path / "file").touch()
     assert run("lamp", "-o", tmp_path / "file") == 2
     (tmp_path / "taken" / "lamp.svg").mkdir(parents=True)
@@ -169,3 +176,42 @@ def test_the_table_names_the_worst_under_the_guarantee() -> None:
     row = "| sizes | Sizes | below a half up to 4 | holds | 0.2 | 9 (naive) | 1.2 |"
     assert row in text.splitlines()
     assert "on a driver." in text
+
+
+class Painted:
+    """A renderer without OpenGL, whose pictures are even."""
+
+    samples = 0
+
+    def __init__(self, scene: Scene, **_options: object) -> None: ...
+
+    def render(self, samples: int) -> "Painted":
+        self.samples = samples
+        return self
+
+    def image(self) -> Image:
+        return Image(np.ones((8, 8, 3), np.float32), np.ones((8, 8, 3), np.float32), self.samples)
+
+    def release(self) -> None: ...
+
+
+def test_a_page_gets_the_pictures_of_each_case_and_nothing_else_does(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(sweep, "Renderer", Painted)
+    scene = load("cornell")
+
+    def run(lab: Lab) -> Sweep:
+        for samples in (1, 2):
+            lab.render(scene, samples)
+        with lab.rendering(scene):
+            pass
+        return SWEEP
+
+    context: Context = None  # type: ignore[assignment]
+    wanted, unwanted = Lab(context, rendered=[]), Lab(context)
+    case = Case("even", "Even pictures", run)
+    for _ in range(2):
+        found = stress._run(case, wanted)
+        assert [image.samples for image in found.rendered] == [1, 2]
+    assert stress._run(case, unwanted).rendered == ()

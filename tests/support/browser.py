@@ -46,9 +46,12 @@ def found_in(page: Path, script: str, width: int = 1000) -> Any:
     return json.loads(base64.b64decode(coded))
 
 
-def screenshot(page: Path, file: Path, width: int = 1000, height: int = 1200) -> None:
-    """Write a picture of a page, as PNG."""
-    _run(f"--window-size={width},{height}", f"--screenshot={file}", page.as_uri())
+def screenshot(
+    page: Path, file: Path, width: int = 1000, height: int = 1200, dark: bool = False
+) -> None:
+    """Write a picture of a page, as PNG, in the dark style or in the light one."""
+    scheme = f"--blink-settings=preferredColorScheme={0 if dark else 1}"
+    _run(scheme, f"--window-size={width},{height}", f"--screenshot={file}", page.as_uri())
 
 
 def _run(*words: str) -> str:

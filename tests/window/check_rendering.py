@@ -58,10 +58,11 @@ def samples_end_at_the_target(hand: Hand) -> None:
 @check
 def the_figures_report_error_and_forecast(hand: Hand) -> None:
     app = hand.window.app
-    hand.until(lambda: len(app.progress.looks) > 2)
+    hand.until(lambda: len(app.progress.looks) > 2 and app.load.last is not None)
     told = "\n".join(figures(app))
     assert "million samples/s" in told
     assert "ms a frame" in told
+    assert re.search(r"^[\d.]+ frames/s, \d+ % of \d+ processors?$", told, re.M), told
     assert re.search(r"error [\d.]+ % \([\d.]+ to [\d.]+\)", told), told
     assert "of rendering" in told or "is reached" in told
     assert app.progress.looks[0].error > app.progress.looks[-1].error > 0

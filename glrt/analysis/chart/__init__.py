@@ -8,5 +8,6 @@ Modules, each importing only what stands above it:
 - curves: statistics of the rounds: error, intervals, slope, bias
 - experiment: the measurement of one scene
 - page: the results as sentences and tables
+- sections: the results as sections of a page that needs no network
 - files: charts, page, CSV and JSON
 """

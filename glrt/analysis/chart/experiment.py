@@ -31,8 +31,10 @@ def key_of(scene: Scene, variants: Sequence[Variant], reference: Reference, plac
     return hashlib.sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()[:32]
 
 
-def load_rounds(path: Path, key: str) -> list[Round]:
+def load_rounds(path: Path | None, key: str) -> list[Round]:
     """The rounds in a file; empty if it is missing, damaged or of another measurement."""
+    if path is None:
+        return []
     try:
         data = json.loads(path.read_text(encoding="utf-8"))
         if data["key"] != key:
@@ -45,8 +47,10 @@ def load_rounds(path: Path, key: str) -> list[Round]:
         return []
 
 
-def save_rounds(path: Path, key: str, rounds: Sequence[Round]) -> None:
-    """Write the rounds, replacing the file."""
+def save_rounds(path: Path | None, key: str, rounds: Sequence[Round]) -> None:
+    """Write the rounds, replacing the file; without a path, do nothing."""
+    if path is None:
+        return
     text = json.dumps({"key": key, "rounds": rounds}) + "\n"
     files.write_text(path, text)
 
@@ -88,9 +92,12 @@ class Experiment:
 
 
 def measure_scene(
-    name: str, scene: Scene, plan: Plan, context: Context, rounds_file: Path, report: Tell
+    name: str, scene: Scene, plan: Plan, context: Context, rounds_file: Path | None, report: Tell
 ) -> Experiment:
-    """Measure a scene; rounds that `rounds_file` holds from an earlier run are not repeated."""
+    """Measure a scene; rounds that `rounds_file` holds from an earlier run are not repeated.
+
+    Without such a file, an interrupted measurement is lost.
+    """
     settings = settings_for(frame_of(scene, plan.height), sampler=SAMPLER)
     variants = [
         variant

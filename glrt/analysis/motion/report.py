@@ -1,10 +1,11 @@
-"""The chart of error while something moves: SVG, PNG, CSV, and a page."""
+"""The chart of error while something moves: SVG, PNG, CSV, and pages."""
 
 import csv
 import io
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from glrt.analysis.chart_page import Section, Table, axes_of
 from glrt.analysis.motion.measure import BEFORE, DEGREES, FACTOR, FRAMES, Track
 from glrt.analysis.plot import FORMATS, Chart, Curve, save_sheet
 from glrt.core import files
@@ -44,6 +45,27 @@ def save_page(tracks: Sequence[Track], size: str, folder: Path) -> Path:
     return path
 
 
+def section_of(name: str, title: str, tracks: Sequence[Track]) -> Section:
+    """The section of a scene on a page that needs no network; `tracks` are the scene's."""
+    charts = [_chart(sequence, tracks) for sequence in _sequences(tracks)]
+    rows = [["what moves, mode", "rays a pixel and frame", "mean error"]]
+    rows += [
+        [
+            f"{_WORDS[track.sequence]}, {track.mode}",
+            f"{_rays(track):.1f}",
+            f"{track.mean_error:.3f}",
+        ]
+        for track in tracks
+    ]
+    axes = [axes_of(chart, chart.title) for chart in charts]
+    about = f"Over {FRAMES} frames of one sample a pixel."
+    return Section(name, f"{name}: {title}", [about], axes, [Table("means", rows)])
+
+
+def _rays(track: Track) -> float:
+    return sum(seen.rays for seen in track.seen) / len(track.seen)
+
+
 def _lines(tracks: Sequence[Track], size: str) -> Iterator[str]:
     yield "# Error while something moves"
     yield ""
@@ -65,9 +87,8 @@ def _lines(tracks: Sequence[Track], size: str) -> Iterator[str]:
             None,
         )
         gain = f"{base / track.mean_error:.2f}" if base else "-"
-        rays = sum(seen.rays for seen in track.seen) / len(track.seen)
         yield (
-            f"| {track.scene} | {_WORDS[track.sequence]} | {track.mode} | {rays:.1f} "
+            f"| {track.scene} | {_WORDS[track.sequence]} | {track.mode} | {_rays(track):.1f} "
             f"| {track.mean_error:.3f} | {gain if track.mode != 'reset' else '1'} |"
         )
     for name in dict.fromkeys(track.scene for track in tracks):

@@ -8,6 +8,7 @@ from imgui_bundle import ImVec2, hello_imgui, imgui, implot
 from glrt.core.memo import kept_for_the_same
 from glrt.plan.explanation import explain
 from glrt.plan.plan import Plan
+from glrt.process.load import MISSING, LoadMeter
 from glrt.settings import MAX_SAMPLES
 from glrt.view.app import App
 from glrt.view.compared_picture import Slot
@@ -46,12 +47,26 @@ def figures(app: App) -> list[str]:
         f"{rate / 1e6:.2f} million samples/s, {1e3 * app.frame_seconds:.0f} ms a frame",
         f"error {error_text(progress.last) if progress.last else _unknown(session)}",
         forecast(progress, app.preferences.target_error, session.settings.samples),
+        load_text(app.load),
     ]
     if app.pair.slot:
         lines.append(_slot_text(app.pair.slot))
     if progress.last and progress.last.nonfinite:
         lines.append(f"{progress.last.nonfinite:,} samples were not finite and were dropped")
     return lines
+
+
+def load_text(meter: LoadMeter) -> str:
+    """Return frames a second, and what they take of the processors and of the GPU."""
+    load, gpu = meter.last, meter.gpu
+    if load is None:
+        return "load not known yet"
+    plural = "s" if meter.processors > 1 else ""
+    share = f"{100 * load.cpu:.0f} % of {meter.processors} processor{plural}"
+    text = f"{load.rate:.3g} frames/s, {share}"
+    if load.gpu is not None:
+        return f"{text}, {100 * load.gpu:.0f} % of the GPU"
+    return f"{text}; GPU: {gpu.unknown}" if gpu.unknown == MISSING else text
 
 
 def _slot_text(slot: Slot) -> str:

@@ -1,0 +1,92 @@
+"""The results of charts as sections of a page: curves over time and over rays, and a table."""
+
+from collections.abc import Iterator, Sequence
+
+from glrt.analysis.chart.curves import LEVELS, Curve, Point, front
+from glrt.analysis.chart.experiment import Experiment
+from glrt.analysis.chart.page import BASE, number, percent, sentences, speed_up, table
+from glrt.analysis.chart_page import Axes, Dot, Level, Line, Section, Table
+from glrt.analysis.variants import LEAD
+
+FRONT = "Pareto front"
+
+
+def section_of(experiment: Experiment) -> Section:
+    """The section of a scene. At first it shows the front, and the variants BASE and LEAD."""
+    curves = experiment.curves
+    times = [[point.milliseconds.value for point in curve.points] for curve in curves]
+    pairs = zip(curves, experiment.rays, strict=True)
+    rays = [[ray.of(point.samples) for point in curve.points] for curve, ray in pairs]
+    shown = _shown(curves, times)
+    width, height = experiment.size
+    charts = [
+        _axes("Error over time", "milliseconds per picture", curves, times, shown),
+        _axes("Error over rays", "rays per pixel", curves, rays, shown),
+    ]
+    return Section(
+        name=experiment.name,
+        title=f"{experiment.name}: {experiment.title}",
+        lines=[f"{width} x {height} pixels, {experiment.rounds} rounds, {experiment.place}."],
+        charts=charts,
+        tables=[Table("all variants", list(_cells(experiment)))],
+        findings=[sentence.replace("`", "") for sentence in sentences(experiment)],
+    )
+
+
+def _axes(
+    title: str,
+    x_label: str,
+    curves: Sequence[Curve],
+    places: Sequence[Sequence[float]],
+    shown: set[str],
+) -> Axes:
+    lines = [
+        Line(
+            curve.name,
+            [_dot(x, point) for x, point in zip(xs, curve.points, strict=True)],
+            is_shown=curve.name in shown,
+        )
+        for curve, xs in zip(curves, places, strict=True)
+    ]
+    lines.append(Line(FRONT, _front([dot for line in lines for dot in line.dots]), "front"))
+    by_time = x_label.startswith("milliseconds")
+    levels = [Level(level, _text(curves, level) if by_time else percent(level)) for level in LEVELS]
+    return Axes(title, x_label, "relative RMS error", lines, levels, is_percent=True)
+
+
+def _dot(x: float, point: Point) -> Dot:
+    error, low, high = point.error
+    tip = (
+        f"{point.samples} samples, {number(point.milliseconds.value)} ms: error {percent(error)} "
+        f"({percent(low)} to {percent(high)})"
+    )
+    return Dot(x, error, tip, low, high)
+
+
+def _front(dots: Sequence[Dot]) -> list[Dot]:
+    known = [(dot.x, dot.y) for dot in dots if dot.x is not None and dot.y is not None]
+    return [Dot(*known[place], tip="") for place in front(known)]
+
+
+def _shown(curves: Sequence[Curve], times: Sequence[Sequence[float]]) -> set[str]:
+    """The names of the curves that reach the front, of the baseline and of the default."""
+    dots = [
+        (x, point.error.value, curve.name)
+        for curve, xs in zip(curves, times, strict=True)
+        for x, point in zip(xs, curve.points, strict=True)
+    ]
+    names = {dots[place][2] for place in front([dot[:2] for dot in dots])}
+    wanted = {BASE, LEAD}
+    return names | {curve.name for curve in curves if wanted & set(curve.name.split(" = "))}
+
+
+def _text(curves: Sequence[Curve], level: float) -> str:
+    gain = speed_up(curves, level)
+    return f"{percent(level)}: {gain.text}" if gain else percent(level)
+
+
+def _cells(experiment: Experiment) -> Iterator[list[str]]:
+    """The table of the Markdown page without its lines."""
+    for line in table(experiment):
+        if not line.startswith("|---"):
+            yield [cell.strip() for cell in line.strip("|").split("|")]
