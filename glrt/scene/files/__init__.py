@@ -7,4 +7,5 @@ Modules, each importing only what stands above it:
 - named_files: files named by a path
 - named_images: images named by a path
 - named_meshes: meshes named by a path
+- named_cameras: cameras named by a path
 """
