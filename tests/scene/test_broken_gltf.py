@@ -26,12 +26,6 @@ def broken(change: str, value: Any) -> bytes:
 
 WRONG: dict[str, tuple[str, Any, str]] = {
     "another version": ("asset.version", "1.0", "asset.version must be 2.0, got '1.0'"),
-    "a needed extension": ("extensionsRequired", ["EXT_x"], "requires the extension 'EXT_x'"),
-    "another compression": (
-        "extensionsRequired",
-        ["EXT_meshopt_compression"],
-        "requires the extension 'EXT_meshopt_compression'",
-    ),
     "a view that is not there": ("accessors.0.bufferView", 99, "names bufferViews[99]"),
     "an accessor that is not there": ("meshes.0.primitives.0.indices", 99, "accessors[99]"),
     "a mesh that is not there": ("nodes.0.mesh", -1, "names meshes[-1]"),
@@ -55,6 +49,29 @@ def test_what_is_wrong_is_refused_by_its_place(name: str) -> None:
     with pytest.raises(SceneError, match=r"^here: 'thing.glb' is damaged") as caught:
         decode_mesh(broken(change, value), "thing.glb", "here")
     assert message in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("needed", "told"),
+    [
+        (["EXT_x"], "requires the extension 'EXT_x'"),
+        (["KHR_x", "KHR_draco_mesh_compression"], "the extension 'KHR_x'"),
+        (["EXT_meshopt_compression", 3], "the extensions 'EXT_meshopt_compression', 3"),
+        ([["EXT_x"]], "the extension a list"),
+    ],
+)
+def test_a_needed_extension_is_refused_by_its_name_and_not_as_damage(
+    needed: list[Any], told: str
+) -> None:
+    with pytest.raises(SceneError, match=r"^here: 'thing.glb' requires the ext") as caught:
+        decode_mesh(broken("extensionsRequired", needed), "thing.glb", "here")
+    assert told in str(caught.value)
+    assert "damaged" not in str(caught.value)
+
+
+@pytest.mark.parametrize("name", ["KHR_xmp_json_ld", "EXT_structural_metadata"])
+def test_extensions_that_change_no_picture_are_read(name: str) -> None:
+    assert decode_mesh(broken("extensionsRequired", [name]), "thing.glb", "here").faces.any()
 
 
 ENDS: dict[str, tuple[bytes, str]] = {

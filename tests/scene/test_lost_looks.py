@@ -297,3 +297,63 @@ def test_what_is_unlit_has_holes(mode: str, tmp_path: Path, context: Context) ->
     seen = scene.model_copy(update={"camera": scene.camera.model_copy(update=view)})
     image = rendered(seen, context, 256, width=8, height=8)
     assert_allclose(image.radiance.mean(axis=(0, 1)), SEEN[mode], atol=0.02)
+
+
+def webp(color: tuple[int, int, int]) -> bytes:
+    file = io.BytesIO()
+    Pillow.new("RGB", (2, 2), color).save(file, "WEBP", lossless=True)
+    return file.getvalue()
+
+
+def with_webp(folder: Path, content: bytes | None, is_spare: bool = True) -> Scene:
+    """A square with a WebP image in a file next to it, and perhaps a PNG image to show instead."""
+    builder = textured_square()
+    texture, images = builder.json["textures"][0], builder.json["images"]
+    builder.add("images", {"uri": "look.webp", "mimeType": "image/webp"})
+    texture["extensions"] = {"EXT_texture_webp": {"source": len(images) - 1}}
+    if not is_spare:
+        del texture["source"]
+        builder.json["extensionsRequired"] = ["EXT_texture_webp"]
+    builder.json["extensionsUsed"] = ["EXT_texture_webp"]
+    if content is not None:
+        (folder / "look.webp").write_bytes(content)
+    (folder / "thing.glb").write_bytes(builder.glb())
+    return load(folder / "thing.glb")
+
+
+def image_of(scene: Scene) -> str:
+    look = scene.materials["thing.glb:painted"]
+    assert isinstance(look, Principled)
+    return look.color_map.image.file if look.color_map and look.color_map.image else ""
+
+
+@pytest.mark.parametrize("is_spare", [True, False])
+def test_webp_images_of_a_gltf_file_are_read(tmp_path: Path, is_spare: bool) -> None:
+    scene = with_webp(tmp_path, webp((255, 0, 0)), is_spare)
+    assert image_of(scene) == "look.webp"
+    assert "look.webp" in hashes_of(scene)
+    assert told(scene) == []
+
+
+@pytest.mark.parametrize("content", [None, b"RIFF....WEBP"])
+def test_an_unreadable_webp_image_gives_way_to_the_spare_one(
+    tmp_path: Path, content: bytes | None
+) -> None:
+    scene = with_webp(tmp_path, content)
+    assert image_of(scene) == "thing.glb#0"
+    assert told(scene) == []
+    assert image_of(with_webp(tmp_path, content, is_spare=False)) == ""
+
+
+def test_two_images_that_stand_in_for_each_other_end_without_one(tmp_path: Path) -> None:
+    builder = textured_square()
+    for uri in ("a.webp", "b.webp"):
+        builder.add("images", {"uri": uri})
+    for first, second in ((1, 2), (2, 1)):
+        both = {"source": second, "extensions": {"EXT_texture_webp": {"source": first}}}
+        builder.add("textures", both)
+    look = builder.json["materials"][0]["pbrMetallicRoughness"]
+    look["baseColorTexture"]["index"] = 1
+    look["metallicRoughnessTexture"] = {"index": 2}
+    (tmp_path / "thing.glb").write_bytes(builder.glb())
+    assert image_of(load(tmp_path / "thing.glb")) == ""

@@ -13,7 +13,7 @@ from glrt.scene.files.named_images import ImageFile, Pixels, Texels, TextureImag
 from glrt.scene.files.named_meshes import MeshFile
 from glrt.scene.images.image_files import decode_image
 from glrt.scene.model_files.gltf.cameras import FileCameras
-from glrt.scene.model_files.gltf.document import Document
+from glrt.scene.model_files.gltf.document import Document, LacksExtensionError
 from glrt.scene.model_files.gltf.images import image_content
 from glrt.scene.model_files.mesh_formats import GLTF, decode_mesh
 from glrt.scene.values import LARGEST
@@ -73,6 +73,8 @@ def _cameras(named: CameraFile, reader: AssetReader, where: str) -> CameraFile:
     beside = Beside(asset, reader, where)
     try:
         cameras = FileCameras(Document(asset.content, beside))
+    except LacksExtensionError as error:
+        raise SceneError(f"{where}: {quoted(named.file)} {error}. Export it without.") from None
     except ValueError as error:
         raise SceneError(f"{where}: {quoted(named.file)}: {error}. Export it again.") from None
     found = named.read_as(asset.sha256, cameras, asset.origin)

@@ -123,12 +123,11 @@ def of_gltf(shape: Mesh, reader: AssetReader, where: str) -> Found:
 
 def _of_look(look: Look, images: "_Images", here: str) -> Material:
     material = validated(Principled, look.table, here)
-    lost = images.lost(material)
-    if not lost:
-        return material
-    for key in lost:
-        without_image(look, key)
-    return validated(Principled, look.table, here)
+    while lost := images.lost(material):
+        for key in lost:
+            without_image(look, key)
+        material = validated(Principled, look.table, here)
+    return material
 
 
 class _Images:

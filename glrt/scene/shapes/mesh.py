@@ -149,8 +149,7 @@ class Mesh(Sided):
             if whole.poses is None:
                 raise ValueError("it has no animation: leave `time` out")
             whole = whole.poses.at(self.animation, self.time)
-        if self.variant is not None:
-            whole = whole.varied(self.variant)
+        whole = whole.varied(self.variant)
         return whole.creased(self.crease) if self.smooth == "auto" else whole
 
     @property

@@ -27,9 +27,25 @@ KNOWN = {  # extensions that are read, or change nothing here
     "KHR_materials_variants",
     "KHR_texture_transform",
     "KHR_lights_punctual",
+    "EXT_texture_webp",
+    # without an effect on a picture: metadata, and what a user may touch
+    "KHR_xmp_json_ld",
+    "KHR_xmp",
+    "EXT_structural_metadata",
+    "EXT_mesh_features",
+    "EXT_feature_metadata",
+    "AGI_articulations",
+    "AGI_stk_metadata",
+    "KHR_node_selectability",
+    "KHR_node_hoverability",
+    "GODOT_single_root",
 }
 _MAGIC, _JSON, _BIN = 0x46546C67, 0x4E4F534A, 0x004E4942
 _LONGEST_JSON = 256 << 20  # bytes
+
+
+class LacksExtensionError(ValueError):
+    """A file requires an extension that glrt does not read; the message names it."""
 
 
 class Document:
@@ -44,9 +60,7 @@ class Document:
         if not isinstance(version, str) or not version.startswith("2."):
             raise ValueError(f"asset.version must be 2.0, got {_shown(version)}")
         needed = self.json.get("extensionsRequired", [])
-        for name in needed if isinstance(needed, list) else []:
-            if name not in KNOWN:
-                raise ValueError(f"it requires the extension {_shown(name)}, which glrt lacks")
+        _check_extensions(needed if isinstance(needed, list) else [])
 
     @cached_property
     def unknown_extensions(self) -> list[str]:
@@ -154,6 +168,14 @@ def numbers(
     if not isinstance(value, list) or len(value) != count:
         raise ValueError(f"{where} must be a list of {count} numbers, got {_shown(value)}")
     return tuple(number(each, f"{where}[{place}]", low, high) for place, each in enumerate(value))
+
+
+def _check_extensions(needed: list[Any]) -> None:
+    lacking = [it for it in needed if not (isinstance(it, str) and it in KNOWN)]
+    if lacking:
+        noun = "the extension" if len(lacking) == 1 else "the extensions"
+        names = ", ".join(map(_shown, lacking))
+        raise LacksExtensionError(f"requires {noun} {names}, which glrt does not read")
 
 
 def _chunks(content: bytes) -> tuple[bytes, bytes | None]:
