@@ -104,6 +104,9 @@ class Needs:
     has_instance: bool = _row(lambda it: bool(it.facts.instances))  # meshes with own BVHs
     instance_bits: int = _row(lambda it: it.facts.instance_bits, most=0)
     has_smooth: bool = _row(lambda it: it.facts.is_smooth, "smooth normals", reasons.smooth)
+    has_hidden_back: bool = _row(  # meshes that rays pass from behind
+        lambda it: bool(it.facts.hidden_backs), "hidden backs", reasons.hidden_backs
+    )
     has_vertex_color: bool = _row(lambda it: it.facts.is_colored, "vertex colours", reasons.colored)
     has_map: bool = _row(lambda it: bool(it.facts.mapped))  # textures
     has_color_map: bool = _textured("textured color", "color")

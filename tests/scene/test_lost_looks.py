@@ -357,3 +357,17 @@ def test_two_images_that_stand_in_for_each_other_end_without_one(tmp_path: Path)
     look["metallicRoughnessTexture"] = {"index": 2}
     (tmp_path / "thing.glb").write_bytes(builder.glb())
     assert image_of(load(tmp_path / "thing.glb")) == ""
+
+
+@pytest.mark.parametrize("stated", [False, True, None])
+def test_backs_that_a_file_leaves_out_are_shown_and_told(
+    tmp_path: Path, stated: bool | None
+) -> None:
+    keys = {} if stated is None else {"doubleSided": stated}
+    (tmp_path / "thing.glb").write_bytes(textured_square(**keys).glb())
+    hint = ["the hidden backs of 'painted' (backfaces = hidden)"]
+    assert told(load(tmp_path / "thing.glb")) == (hint if stated is False else [])
+    head = "[camera]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\n[background]\ncolor = [1, 1, 1]\n"
+    mesh = '[[objects]]\nshape = "mesh"\nfile = "thing.glb"\nbackfaces = "hidden"'
+    (tmp_path / "scene.toml").write_text(head + mesh)
+    assert told(load(tmp_path / "scene.toml")) == []

@@ -105,6 +105,8 @@ def of_gltf(shape: Mesh, reader: AssetReader, where: str) -> Found:
             if look.table.get("transmission") and not look.table["thin"] and part.opening:
                 look.unread.append("the volume of glass that is not closed")
                 make_pane(look)
+            if look.hides_backs and not shape.hides_backs and part.opening:
+                look.unread.append(f"the hidden backs of {quoted(name)} (backfaces = hidden)")
             if look.is_unlit and part.colors is not None:
                 dye_unlit(look, part.colors)
             here = f"{where}: {shape.file.file}: material {quoted(name)}"

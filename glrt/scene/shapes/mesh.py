@@ -17,6 +17,7 @@ from glrt.scene.values import LARGEST, Name, Number, Triple, Vector
 from glrt.settings import Cost, Editable
 
 Smooth = Literal[True, False, "auto"]
+Backs = Literal["both", "hidden"]
 MOST_OUTLINED = 200_000  # triangles whose edges may make an outline
 
 
@@ -86,6 +87,12 @@ class Mesh(Sided):
         description="angle between triangles from which an edge is sharp, with smooth = auto",
     )
 
+    backfaces: Annotated[Backs, Editable(Cost.RECOMPILE)] = Field(
+        "both",
+        description="whether both sides of triangles are there; hidden: rays pass triangles that "
+        "they meet from behind, and lamps emit from their front alone",
+    )
+
     has_inside = True
     has_coordinates = True
     anchor = "translate"
@@ -111,6 +118,7 @@ class Mesh(Sided):
             variant: str | None = None,
             smooth: Smooth = True,
             crease: Number = 40.0,
+            backfaces: Backs = "both",
             material: str = "",
             part: str | None = None,
             name: str | None = None,
@@ -156,7 +164,18 @@ class Mesh(Sided):
     def form(self) -> tuple[object, ...]:
         """The triangles by name: meshes of one form share them, wherever they stand."""
         crease = self.crease if self.smooth == "auto" else None
-        return self.file.sha256, self.part, self.variant, crease, self.animation, self.time
+        own = self.part, self.variant, crease, self.animation, self.time
+        return self.file.sha256, *own, self.hides_backs
+
+    @property
+    def hides_backs(self) -> bool:
+        """Whether rays pass its triangles from behind."""
+        return self.backfaces == "hidden"
+
+    @property
+    def is_one_sided(self) -> bool:
+        """Whether it emits from its front alone."""
+        return super().is_one_sided or self.hides_backs
 
     @property
     def linear(self) -> Array:
@@ -285,5 +304,6 @@ class Mesh(Sided):
         with np.errstate(all="ignore"):
             normal = np.cross(b - a, c - a)
             t = (a * normal).sum(axis=1) / (normal @ along)
+            is_met = normal @ along < 0 if self.hides_backs else np.full(len(t), True)
             same = ((u >= 0) & (v >= 0) & (w >= 0)) | ((u <= 0) & (v <= 0) & (w <= 0))
-            return float(np.where(same & (t > 0), t, math.inf).min())
+            return float(np.where(same & is_met & (t > 0), t, math.inf).min())

@@ -97,9 +97,8 @@ class Look:
     table: dict[str, Any]
     unread: list[str] = field(default_factory=list)
     is_unlit: bool = False
-    spares: dict[str, str] = field(
-        default_factory=dict
-    )  # shown for unreadable images
+    hides_backs: bool = False  # doubleSided = false, as the file states
+    spares: dict[str, str] = field(default_factory=dict)  # shown for unreadable images
     lost: set[tuple[str, str]] = field(default_factory=set)  # keys and images
 
     def number(self, value: Any, where: str, most: float = 1.0) -> float:
@@ -136,6 +135,7 @@ def _look(document: Document, textures: TextureTables, index: int) -> Look:
         _emission(document, textures, given, here, look)
     _layers(document, textures, given, here, look)
     look.is_unlit = is_unlit
+    look.hides_backs = given.get("doubleSided") is False
     if is_unlit:
         _let_shine(look)
     return look
