@@ -97,12 +97,6 @@ class SceneFacts:
         """Whether some mesh interpolates normals."""
         return any(mesh.smooth for mesh in self.scene.meshes)
 
-    @property
-    def hidden_backs(self) -> list[str]:
-        """Files of the meshes whose triangles rays pass from behind."""
-        names = [mesh.file.file for mesh in self.scene.meshes if mesh.hides_backs]
-        return list(dict.fromkeys(names))
-
     @cached_property
     def is_colored(self) -> bool:
         """Whether some mesh multiplies the colour of its material by colours of its vertices."""

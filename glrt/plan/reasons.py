@@ -51,7 +51,7 @@ def metals(is_rough: bool) -> Callable[[Case], list[str]]:
 
 def hidden_backs(case: Case) -> str:
     """Return the files of meshes with hidden backs."""
-    names = case.facts.hidden_backs
+    names = case.scene.hidden_backs
     return f"backfaces of {few(names)}" if names else "no mesh hides its backs"
 
 

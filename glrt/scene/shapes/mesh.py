@@ -12,6 +12,7 @@ from glrt.scene.meshes.triangle_meshes import TriangleMesh
 from glrt.scene.shapes.base import Array, Sided, along_and_rest
 from glrt.scene.shapes.box import rotation
 from glrt.scene.shapes.faces import Faces, box_faces, faces_of_triangles, welded
+from glrt.scene.shapes.mesh_rays import nearest, winds_around
 from glrt.scene.shapes.mesh_values import Factors, Matrix
 from glrt.scene.values import LARGEST, Name, Number, Triple, Vector
 from glrt.settings import Cost, Editable
@@ -258,14 +259,7 @@ class Mesh(Sided):
         """Return whether the mesh winds around a point, (3,) (van Oosterom and Strackee 1983)."""
         if np.linalg.norm(point - self.middle) > self.reach:
             return False
-        corners = self.world_vertices - point
-        a, b, c = (corners[self.triangles.faces[:, k]] for k in range(3))
-        la, lb, lc = (np.linalg.norm(corner, axis=1) for corner in (a, b, c))
-        volume = (a * np.cross(b, c)).sum(axis=1)
-        rest = la * lb * lc + (a * b).sum(axis=1) * lc
-        rest += (b * c).sum(axis=1) * la + (c * a).sum(axis=1) * lb
-        turns = abs(np.arctan2(volume, rest).sum()) / (2 * np.pi)
-        return bool(turns > 0.5)
+        return winds_around(self.world_vertices - point, self.triangles.faces)
 
     @property
     def faces(self) -> Faces:
@@ -299,11 +293,4 @@ class Mesh(Sided):
         inverse = np.linalg.inv(self.linear)
         start, along = inverse @ (origin - self.origin), inverse @ direction
         mesh = self.triangles
-        a, b, c = (mesh.vertices[mesh.faces[:, k]] - start for k in range(3))
-        u, v, w = (np.cross(x, y) @ along for x, y in ((c, b), (a, c), (b, a)))
-        with np.errstate(all="ignore"):
-            normal = np.cross(b - a, c - a)
-            t = (a * normal).sum(axis=1) / (normal @ along)
-            is_met = normal @ along < 0 if self.hides_backs else np.full(len(t), True)
-            same = ((u >= 0) & (v >= 0) & (w >= 0)) | ((u <= 0) & (v <= 0) & (w <= 0))
-            return float(np.where(same & is_met & (t > 0), t, math.inf).min())
+        return nearest(mesh.vertices - start, mesh.faces, along, self.hides_backs)
