@@ -1,6 +1,7 @@
 """glTF files that are wrong: refused by their place, and damaged ones read or refused."""
 
 import json
+import re
 import time
 from typing import Any
 
@@ -9,7 +10,7 @@ import pytest
 from glrt.core.errors import SceneError
 from glrt.scene.model_files.mesh_formats import decode_mesh
 from tests.scene.test_mesh_files import damaged
-from tests.support.gltf_files import Builder, textured_square
+from tests.support.gltf_files import Builder, square, textured_square
 
 
 def broken(change: str, value: Any) -> bytes:
@@ -72,6 +73,24 @@ def test_a_needed_extension_is_refused_by_its_name_and_not_as_damage(
 @pytest.mark.parametrize("name", ["KHR_xmp_json_ld", "EXT_structural_metadata"])
 def test_extensions_that_change_no_picture_are_read(name: str) -> None:
     assert decode_mesh(broken("extensionsRequired", [name]), "thing.glb", "here").faces.any()
+
+
+@pytest.mark.parametrize(("word", "changed"), [("4", "4.0"), ("4", "0.4e1"), ("0", "0.0")])
+def test_whole_numbers_may_be_written_as_floats(word: str, changed: str) -> None:
+    """https://json-schema.org/draft/2020-12/json-schema-core#name-instance-data-model"""
+    builder = Builder()
+    builder.shown(square(builder))
+    text = builder.gltf().decode()
+    number = re.compile(rf'(": |\[){word}(?=[,\]}}])')
+    assert number.search(text)
+    expected = decode_mesh(text.encode(), "a.gltf", "here")
+    found = decode_mesh(number.sub(rf"\g<1>{changed}", text).encode(), "a.gltf", "here")
+    assert (found.vertices == expected.vertices).all()
+
+
+def test_numbers_that_are_not_whole_are_refused_where_whole_ones_belong() -> None:
+    with pytest.raises(SceneError, match=r"names meshes\[0.5\]"):
+        decode_mesh(broken("nodes.0.mesh", 0.5), "thing.glb", "here")
 
 
 ENDS: dict[str, tuple[bytes, str]] = {

@@ -42,6 +42,7 @@ KNOWN = {  # extensions that are read, or change nothing here
 }
 _MAGIC, _JSON, _BIN = 0x46546C67, 0x4E4F534A, 0x004E4942
 _LONGEST_JSON = 256 << 20  # bytes
+_WHOLE = 2**53  # below it a float64 holds every whole number
 
 
 class LacksExtensionError(ValueError):
@@ -210,7 +211,8 @@ def _parsed(text: bytes) -> dict[str, Any]:
     if len(text) > _LONGEST_JSON:
         raise ValueError(f"its JSON is longer than {_LONGEST_JSON >> 20} MiB")
     try:
-        found = json.loads(text.rstrip(b"\0").decode("utf-8-sig"), parse_constant=_refused)
+        plain = text.rstrip(b"\0").decode("utf-8-sig")
+        found = json.loads(plain, parse_constant=_refused, parse_float=_plain_number)
     except RecursionError:
         raise ValueError("its JSON is nested too deeply") from None
     except UnicodeDecodeError:
@@ -220,6 +222,12 @@ def _parsed(text: bytes) -> dict[str, Any]:
     if not isinstance(found, dict):
         raise ValueError("its JSON is no table")
     return found
+
+
+def _plain_number(word: str) -> float:
+    """Return a number of JSON, whose schema takes 4.0 for a whole number."""
+    value = float(word)
+    return int(value) if abs(value) < _WHOLE and value.is_integer() else value
 
 
 def _refused(word: str) -> Any:
