@@ -63,4 +63,5 @@ def run(arguments: argparse.Namespace) -> int:
             f"no window can be opened: {error}. On Debian or Ubuntu install libgl1 and libx11-6. "
             "`glrt render` renders without a window."
         ) from None
-    return Window(arguments.scene, scene, settings, arguments.pipeline).run()
+    rules = file_rules(arguments)
+    return Window(arguments.scene, scene, settings, arguments.pipeline, rules).run()

@@ -86,7 +86,8 @@ def _own_tree(mesh: Mesh) -> dict[str, Array]:
     """Return slots, corners, triangles and height of a mesh in its frame; large ones are cached."""
     given, grid = mesh.triangles, _grid(mesh)
     owner = np.zeros(len(given.faces), np.uint32)
-    found = Triangles(given.vertices, given.shading_normals, given.faces.astype(np.int32), owner)
+    faces, hides = given.faces.astype(np.int32), np.full(len(owner), mesh.hides_backs)
+    found = Triangles(given.vertices, given.shading_normals, faces, owner, hides)
 
     def built() -> dict[str, Array]:
         packed = pack_triangles(found, grid, grid.cell)

@@ -32,11 +32,12 @@ class Triangles(NamedTuple):
     normal: Array  # (v, 3), unit
     face: Array  # (n, 3), int32: numbers of corners
     mesh: Array  # (n,), uint32: numbers of meshes, in the order of the scene
+    hides: Array  # (n,), bool: whether rays pass them from behind
 
 
 def triangles_of(meshes: Sequence[Mesh], without: Collection[int] = ()) -> Triangles:
     """Return the triangles of meshes, one after the other, `without` meshes of these numbers."""
-    position, normal, face, mesh, first = [], [], [], [], 0
+    position, normal, face, mesh, hides, first = [], [], [], [], [], 0
     for number, shape in enumerate(meshes):
         if number in without:
             continue
@@ -45,12 +46,12 @@ def triangles_of(meshes: Sequence[Mesh], without: Collection[int] = ()) -> Trian
         normal.append(_unit(shape.world_normals))
         face.append((faces if shape.is_upright else faces[:, ::-1]).astype(np.int32) + first)
         mesh.append(np.full(len(faces), number, np.uint32))
+        hides.append(np.full(len(faces), shape.hides_backs))
         first += len(points)
     if not face:
-        return Triangles(
-            np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 3), np.int32), np.zeros(0, np.uint32)
-        )
-    return Triangles(*map(np.concatenate, (position, normal, face, mesh)))
+        none, faces = np.zeros((0, 3)), np.zeros((0, 3), np.int32)
+        return Triangles(none, none, faces, np.zeros(0, np.uint32), np.zeros(0, bool))
+    return Triangles(*map(np.concatenate, (position, normal, face, mesh, hides)))
 
 
 class PackedTriangles(NamedTuple):
@@ -68,15 +69,31 @@ def pack_triangles(found: Triangles, grid: Grid, unit: float = 1.0) -> PackedTri
     pairs = paired(exact, found.face)
     around = boxes_of(exact[pairs.corner])
     corners = around.lower * unit + grid.center, around.upper * unit + grid.center
-    boxes = Boxes("Triangle", 0, *corners, partial(_leaves, local, pairs, around.pair))
+    leaves = partial(_leaves, local, pairs, _turns(pairs, found), around.pair)
+    boxes = Boxes("Triangle", 0, *corners, leaves)
     return PackedTriangles(boxes, _corners(local, found.normal), _triangles(exact, found))
 
 
-def _leaves(local: Array, pairs: Pairs, of: Array) -> Array:
+def _turns(pairs: Pairs, found: Triangles) -> Array:
+    """Return two bits for each triangle of each pair, (m,) uint32: how corners turn in its leaf.
+
+    They are 1 for corners about the normal and 2 for the other way, 0 where no side is hidden. The
+    first triangle has them in its own order (glrt/accel/triangle_pairs.py).
+    """
+    first, second = pairs.triangle.T
+    a, c = pairs.corner[:, :1], pairs.corner[:, 2:3]
+    face = found.face[second]
+    follows = ((face == a) & (np.roll(face, -1, axis=1) == c)).any(axis=1)
+    bits: Array = found.hides[first] | found.hides[second] * np.where(follows, 1, 2) << 2
+    return bits.astype(np.uint32)
+
+
+def _leaves(local: Array, pairs: Pairs, turns: Array, of: Array) -> Array:
     """Return the leaves, (k, SLOT), of the pairs with the numbers `of`, (k,)."""
     rows = np.zeros((len(of), SLOT), np.uint32)
     rows[:, :12] = local[pairs.corner[of]].reshape(-1, 12).view(np.uint32)
     rows[:, 12:14] = pairs.triangle[of]
+    rows[:, 14] = turns[of]
     rows[:, 15] = LEAF | CONSTANTS["TRIANGLES"] << LINK_BITS
     return rows
 

@@ -231,6 +231,8 @@ def _refusals(facts: SceneFacts, settings: Settings) -> Iterator[str]:
         yield f"of {facts.sampled_lamps} lamps, too many to choose among for each particle"
     if facts.holed:
         yield "some surfaces have holes, which particles do not follow yet"
+    if facts.scene.hidden_backs:
+        yield "some meshes hide their backs, which particles would meet from the other side"
     if _shines_in_tinted_glass(facts) or _sun_shines_in_it(facts):
         yield "a lamp, sun or sky is in tinted glass or one with a priority: none starts there"
     if facts.media.names:

@@ -18,12 +18,7 @@ from glrt.settings import Settings
 
 NEAR = 8  # pixels around, whose kept points a pixel reuses
 NO_TREE: dict[str, bool | int] = {"TREE_STACK": 0}  # known once the BVH is built
-NO_LAYERS: dict[str, bool | int] = {
-    "LAYERS": 0,
-    "BY_LENGTH": False,
-    "BACKGROUND_LAYER": 0,
-    "SUN_LAYER": 0,
-}
+NO_LAYERS = {"LAYERS": 0, "BY_LENGTH": False, "BACKGROUND_LAYER": 0, "SUN_LAYER": 0}
 NO_COUNTS = {"COUNT_RAYS": False, "COUNT_BOUNCES": False, "LIGHT_TERMS": 0}
 PLAIN_PROBES: dict[str, bool | int] = {
     "FROM_PROBES": False,  # paths start at probes
@@ -104,6 +99,9 @@ class Needs:
     has_instance: bool = _row(lambda it: bool(it.facts.instances))  # meshes with own BVHs
     instance_bits: int = _row(lambda it: it.facts.instance_bits, most=0)
     has_smooth: bool = _row(lambda it: it.facts.is_smooth, "smooth normals", reasons.smooth)
+    has_hidden_back: bool = _row(  # meshes that rays pass from behind
+        lambda it: bool(it.scene.hidden_backs), "hidden backs", reasons.hidden_backs
+    )
     has_vertex_color: bool = _row(lambda it: it.facts.is_colored, "vertex colours", reasons.colored)
     has_map: bool = _row(lambda it: bool(it.facts.mapped))  # textures
     has_color_map: bool = _textured("textured color", "color")

@@ -49,6 +49,12 @@ def metals(is_rough: bool) -> Callable[[Case], list[str]]:
     ]
 
 
+def hidden_backs(case: Case) -> str:
+    """Return the files of meshes with hidden backs."""
+    names = case.scene.hidden_backs
+    return f"backfaces of {few(names)}" if names else "no mesh hides its backs"
+
+
 def media(case: Case) -> str:
     """Return the media that paths fly through."""
     names = case.facts.media.names

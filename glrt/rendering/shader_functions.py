@@ -115,6 +115,7 @@ def _choice(found: SceneFacts) -> dict[str, bool | int]:
         "MANY_LIGHTS": found.has_many_lights,
         **aimed,
         "HAS_INSTANCE": bool(found.instances),
+        "HAS_HIDDEN_BACK": bool(found.scene.hidden_backs),
         "INSTANCE_BITS": found.instance_bits,
         "HAS_TRANSMISSION": bool(found.transmitting),
         "HAS_MAP": bool(found.mapped),

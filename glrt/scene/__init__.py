@@ -3,10 +3,10 @@
 Modules, each importing only what stands above it:
 
 - values: numbers, vectors and colours with their ranges
-- camera: the camera
 - animation: values that change from frame to frame
 - meshes: triangle meshes as arrays
 - files: files that a scene names by their path
+- camera: the camera
 - images: image files as arrays
 - shapes: shapes, one file for each kind
 - lights: background, sun, clear sky, and the cone of a lamp

@@ -47,6 +47,12 @@ class LitScene(SceneFields):
         """The visible meshes."""
         return tuple(thing for thing in self.visible if isinstance(thing, Mesh))
 
+    @property
+    def hidden_backs(self) -> list[str]:
+        """Files of the visible meshes whose triangles rays pass from behind."""
+        names = [mesh.file.file for mesh in self.meshes if mesh.hides_backs]
+        return list(dict.fromkeys(names))
+
     def finish(self, thing: Object) -> Finish:
         """Return the finish of an object's surface."""
         return self._finish(thing.material, thing.group, thing.is_one_sided)

@@ -6,10 +6,11 @@ from glrt.core.text import unknown
 from glrt.scene.loading.mesh_parts import lacks_material
 from glrt.scene.materials.base import Opaque
 from glrt.scene.materials.dielectric import Dielectric
-from glrt.scene.materials.kinds import glass_of
+from glrt.scene.materials.kinds import Material, glass_of
 from glrt.scene.materials.nothing import Nothing
 from glrt.scene.schema.fields import SceneFields
 from glrt.scene.schema.validation import Place
+from glrt.scene.shapes.mesh import Mesh
 
 
 def object_problems(scene: SceneFields) -> Iterator[tuple[Place, str]]:
@@ -25,10 +26,18 @@ def object_problems(scene: SceneFields) -> Iterator[tuple[Place, str]]:
             yield ("objects", index, "material"), advice
         if not item.has_coordinates and isinstance(material, Opaque) and material.textures:
             yield ("objects", index, "material"), _TEXTURE_ADVICE.format(item.shape)
+        if isinstance(item, Mesh) and item.hides_backs and _bounds(item, material):
+            yield ("objects", index, "backfaces"), _BACKS_ADVICE.format(item.material)
         glass = glass_of(material)
         if glass and not (item.encloses or glass.thin):
             article = "an open" if item.has_inside else "a"
             yield ("objects", index), _GLASS_ADVICE.format(f"{article} {item.shape}")
+
+
+def _bounds(mesh: Mesh, material: Material | None) -> bool:
+    """Return whether light that enters a mesh must leave it through its backs."""
+    is_volume = isinstance(material, Nothing) or mesh.medium is not None
+    return is_volume or glass_of(material) is not None
 
 
 def medium_problems(scene: SceneFields) -> Iterator[tuple[Place, str]]:
@@ -78,6 +87,10 @@ def sun_problems(scene: SceneFields) -> Iterator[tuple[Place, str]]:
         yield ("sun", "irradiance"), "is missing; give it, or a background with sky"
 
 
+_BACKS_ADVICE = (
+    "hidden does not go with glass, a medium or the type none, which light leaves through the "
+    "backs of triangles; leave it out, or give the object another material than {!r}"
+)
 _OPEN_ADVICE = (
     "is of type none, which bounds a volume, and this {} encloses none; use a sphere, a plane, a "
     "box, a cylinder with caps or a closed mesh"

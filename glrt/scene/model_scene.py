@@ -11,12 +11,14 @@ from glrt.core.errors import SceneError
 from glrt.scene.files.assets import Asset, AssetFolder, AssetReader
 from glrt.scene.files.named_meshes import MeshFile
 from glrt.scene.files.path_text import text_of
+from glrt.scene.loading.file_camera import TIME, picture_size, track_of_time
 from glrt.scene.loading.file_contents import Beside, with_content
 from glrt.scene.loading.scene_files import with_files
 from glrt.scene.materials.lambertian import Lambertian
 from glrt.scene.meshes.triangle_meshes import Poses, TriangleMesh
-from glrt.scene.model_files.gltf.cameras_lights import camera_of, left_out, lights_of
+from glrt.scene.model_files.gltf.cameras import FileCamera, camera_of, left_out
 from glrt.scene.model_files.gltf.document import Document
+from glrt.scene.model_files.gltf.lights import lights_of
 from glrt.scene.model_files.mesh_formats import FORMATS, GLTF
 from glrt.scene.scene import Scene
 from glrt.scene.schema.validation import validated
@@ -26,7 +28,6 @@ Table = dict[str, Any]
 
 FOV = 35.0  # degrees
 _FROM = np.array([0.65, 0.45, 1.0])  # from the model to the camera: three quarters, above
-_EDGE = 512  # longer edge of the picture, pixels
 MODEL = "model"  # name of the object, which a track of an animation needs
 CLAY = (0.6, 0.58, 0.55)  # color of surfaces without a material
 
@@ -72,9 +73,22 @@ def _animate(tables: Table, poses: Poses) -> None:
     seconds = poses.seconds(poses.usual)
     if seconds > 0:
         tables["objects"][0]["name"] = MODEL
-        moments = (0.0, seconds)
-        track = {"target": f"objects.{MODEL}.time", "times": moments, "values": moments}
-        tables["animation"] = {"tracks": (track,)}
+        _add_track(tables, seconds, ("objects", MODEL, "time"))
+
+
+def _add_track(tables: Table, seconds: float, target: tuple[str, ...] = TIME) -> None:
+    tracks = tables.get("animation", {}).get("tracks", ())
+    tables["animation"] = {"tracks": (*tracks, track_of_time(seconds, target))}
+
+
+def _add_camera(tables: Table, name: str, camera: FileCamera) -> None:
+    """Add a camera by numbers, or by the name of its node if the file moves it."""
+    tables["render"] = picture_size(camera.aspect or 1.0)
+    if camera.usual is None:
+        tables["camera"] = camera.view()._asdict()
+    else:
+        tables["camera"] = {"file": tables["objects"][0]["file"].file, "node": name}
+        _add_track(tables, camera.seconds(camera.usual))
 
 
 def _add_stage(
@@ -85,13 +99,12 @@ def _add_stage(
         document = Document(asset.content, Beside(asset, reader, source))
         lights = lights_of(document, _ball(mesh)[1])
         camera = camera_of(document)
+        if camera:
+            _add_camera(tables, *camera)
     except ValueError as error:
         raise SceneError(f"{source}: {error}. Export the file again.") from None
     thing, suns = tables["objects"][0], lights["suns"]
     thing["file"] = thing["file"].with_libraries({}, left_out(camera, len(suns), document))
-    if camera:
-        tables["camera"], aspect = camera
-        tables["render"] = _size(aspect or 1.0)
     tables["materials"] |= lights["materials"]
     tables["objects"] += lights["objects"]
     if suns:
@@ -110,10 +123,3 @@ def _view(mesh: TriangleMesh) -> Mapping[str, Any]:
     center, radius = _ball(mesh)
     away = _FROM / np.linalg.norm(_FROM) * radius / math.sin(math.radians(FOV) / 2)
     return {"camera": {"position": center + away, "look_at": center, "fov": FOV}}
-
-
-def _size(aspect: float) -> Table:
-    """Return width and height of a picture whose longer edge has _EDGE pixels."""
-    longest = max(aspect, 1.0)
-    width, height = (max(round(_EDGE * edge / longest), 1) for edge in (aspect, 1.0))
-    return {"width": width, "height": height}

@@ -76,6 +76,8 @@ def _covered(
 ) -> list[Twin]:
     """Return the objects of one geometry that are seen from neither side."""
     things = [objects[n] for n in group]
+    if any(isinstance(it, Mesh) and it.hides_backs for it in things):
+        return []  # a hidden back covers nothing
     if any(isinstance(it, Mesh) and it.is_one_sided for it in things) and not _are_alike(things):
         return []
     sides = [_side(thing, things[0]) for thing in things]

@@ -234,8 +234,8 @@ def _shared_places(scene: Scene) -> str:
 def _repeated(scene: Scene) -> Iterator[str]:
     """Yield a warning for each file that holds triangles twice."""
     meshes = [thing for thing in scene.objects if isinstance(thing, Mesh)]
-    for file in dict.fromkeys(mesh.file for mesh in meshes):
-        if file.triangles is not None and (count := file.triangles.repeated):
+    for file, mesh in {mesh.file: mesh for mesh in reversed(meshes)}.items():
+        if file.triangles is not None and (count := mesh.triangles_of_file.repeated):
             verb = "repeats another one" if count == 1 else "repeat others"
             yield f"{file.file}: {counted(count, 'triangle')} {verb}, and each is there once."
 

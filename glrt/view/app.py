@@ -9,6 +9,7 @@ from pathlib import Path
 
 from glrt.core.errors import GlrtError
 from glrt.gpu.glsl import files_reread
+from glrt.image.sources import STRICT, FileRules
 from glrt.process.load import LoadMeter
 from glrt.rendering.history.temporal import Way
 from glrt.scene.scene import Scene
@@ -55,6 +56,7 @@ class App(CameraMoves):
     pace: FrameBudget
     pivot: Vector
     shaders: Watch
+    rules: InitVar[FileRules] = STRICT  # for the files of what was opened
     selected: int | None = None  # number of the selected object
     is_to_be_seen: bool = False  # whether the panel is to scroll to the selected object
     pair: Pair = field(init=False)
@@ -82,7 +84,7 @@ class App(CameraMoves):
     navigates: bool = False  # whether keys move in the panel
     was_busy: bool = False  # whether a widget had the keys a frame ago
 
-    def __post_init__(self, source: str) -> None:
+    def __post_init__(self, source: str, rules: FileRules) -> None:
         """Create the parts that depend on the session and on the opened source."""
         self.load = LoadMeter(self.session.context.renderer)
         self.paths = PathExplorer(self.session.context)
@@ -90,7 +92,7 @@ class App(CameraMoves):
         self.pair = Pair(self.session, self.show, self.restart)
         recent = self.preferences_file.with_name("recent.json")
         self.files = Files(
-            self.session, self.messages, source, recent, self.show_scene, self.add_model
+            self.session, self.messages, source, recent, self.show_scene, self.add_model, rules
         )
 
     def edit_scene(self, gesture: str, make: Callable[[Scene], Scene]) -> None:

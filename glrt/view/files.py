@@ -9,18 +9,18 @@ from imgui_bundle import imgui
 
 from glrt.core.errors import GlrtError
 from glrt.core.files import unused, write_text
-from glrt.core.memo import kept_for_the_same
 from glrt.core.text import escaped
 from glrt.image.recipe import Recipe
-from glrt.image.sources import load, load_recipe, scene_file_of
+from glrt.image.sources import STRICT, FileRules, load_recipe, scene_file_of
 from glrt.rendering.paths.file import paths_to_json
 from glrt.rendering.paths.values import PixelPaths
 from glrt.scene.scene import Scene
 from glrt.scene.scenefile.catalog import MODELS
 from glrt.scene.scenefile.toml_writer import scene_with, write_scene
-from glrt.settings import RenderSettings, Settings, settings_for
-from glrt.view.controls import replaced
+from glrt.settings import RenderSettings, settings_for
 from glrt.view.edits.edited_state import State
+from glrt.view.edits.file_camera import seen_as_before, to_be_saved
+from glrt.view.edits.saved_state import differs, is_other
 from glrt.view.file_dialogs import PICTURE, SCENE, SCENES, Dialogs
 from glrt.view.file_watch import Watch, watch_for
 from glrt.view.messages import Messages
@@ -29,7 +29,6 @@ from glrt.view.state.session import Session
 
 Then = Callable[[], object]
 PICTURE_NAME = "picture.png"
-EDITED = ("objects", "materials", "media", "medium", "lights", "background", "sun")  # to be saved
 
 
 def nothing() -> None:
@@ -46,6 +45,7 @@ class Files:
     recent_file: Path
     show: Callable[[Scene], None]  # called with a scene that was opened
     add: Callable[[Path], None]  # adds a model to the scene
+    rules: FileRules = STRICT  # of the user, for the files of the scene that is open
     open_path: str = ""
     picture_path: str = field(default_factory=lambda: unused(PICTURE_NAME))
     picture_name: str = PICTURE_NAME  # name that numbers are appended to
@@ -65,7 +65,7 @@ class Files:
     @property
     def is_changed(self) -> bool:
         """Whether the scene has unsaved edits; changed camera or settings do not count."""
-        return self.is_lost or _differs(self.saved, self.session.scene)
+        return self.is_lost or differs(self.saved, self.session.scene)
 
     @property
     def is_lost(self) -> bool:
@@ -76,14 +76,15 @@ class Files:
     def title(self) -> str:
         """Title of the window: what is open, with a star if the scene differs from its file."""
         name = Path(self.source).name if self.source else "recipe"
-        is_other = _is_other(self.written, self.session.scene, self.session.settings)
-        return f"{escaped(name)}{' *' if is_other or self.is_lost else ''} - glrt"
+        star = is_other(self.written, self.session.scene, self.session.settings)
+        return f"{escaped(name)}{' *' if star or self.is_lost else ''} - glrt"
 
     def open(self, source: str) -> None:
         """Open another scene, or the scene, view and settings of a picture."""
         with self.messages.reporting():
             scene, recipe = load_recipe(source)
             self._take(scene, recipe or scene.render)
+            self.rules = STRICT  # the user trusted another scene
             self._came_from(source)
             self.messages.report(f"Opened {source}")
 
@@ -174,17 +175,19 @@ class Files:
     def reload(self) -> None:
         """Read the scene file again; the camera and the settings stay."""
         with self.messages.reporting():
-            found, is_edited = load(self.source), _differs(self.saved, self.session.scene)
+            is_edited = differs(self.saved, self.session.scene)
+            found, _ = load_recipe(self.source, self.rules._replace(variant=None))
             lost = "; undo brings your edits back" * is_edited
             self.session.problem = ""
-            self.session.edit(replaced(found, camera=self.session.scene.camera))
+            self.session.edit(seen_as_before(found, self.session.scene.camera))
             self.saved, self.written = found, scene_with(found, self.session.settings)
             self.messages.report(f"Read {self.source} again{lost}")
 
     def save_scene(self, path: str = "") -> bool:
         """Save the scene to a path, by default that of the text box; returns whether it worked."""
         self.scene_path = path or self.scene_path
-        whole, file = scene_with(self.session.scene, self.session.settings), Path(self.scene_path)
+        scene = to_be_saved(self.session.scene, self.session.opened.scene.camera)
+        whole, file = scene_with(scene, self.session.settings), Path(self.scene_path)
         try:
             model = None if self.is_lost else self.model
             has_comments = write_scene(whole, file, model)
@@ -285,16 +288,3 @@ def _where(file: Path) -> str:
     """Return the name of a file and its folder in words."""
     whole = file.absolute()
     return f"{whole.name} in {whole.parent}"
-
-
-@kept_for_the_same
-def _is_other(written: Scene, scene: Scene, settings: Settings) -> bool:
-    whole = scene_with(scene, settings)
-    return _differs(written, scene) or any(
-        getattr(written, part) != getattr(whole, part) for part in ("camera", "render")
-    )
-
-
-@kept_for_the_same
-def _differs(saved: Scene, scene: Scene) -> bool:
-    return any(getattr(saved, part) != getattr(scene, part) for part in EDITED)

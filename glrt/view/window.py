@@ -11,6 +11,7 @@ from imgui_bundle.glfw_utils import glfw_window_hello_imgui
 from glrt.core.errors import ContextError
 from glrt.gpu.context import Pipeline
 from glrt.gpu.glsl import shader_files
+from glrt.image.sources import STRICT, FileRules
 from glrt.rendering.screen.aov_view import AovView
 from glrt.rendering.screen.false_colors import FalseColors
 from glrt.rendering.screen.probe_balls import ProbeBalls
@@ -87,14 +88,20 @@ class Window:
     recovery: Recovery
 
     def __init__(
-        self, source: str, scene: Scene, settings: Settings, pipeline: Pipeline = "auto"
+        self,
+        source: str,
+        scene: Scene,
+        settings: Settings,
+        pipeline: Pipeline = "auto",
+        rules: FileRules = STRICT,
     ) -> None:
         """Prepare the window, which `run` opens; ContextError without display or OpenGL 4.1.
 
         `pipeline` is compute, which needs OpenGL 4.3, or fragment; by default the first that works.
+        `rules` hold for the files of the scene, also when it is read again.
         """
         self._version = window_version(pipeline)
-        self._opened = (source, scene, settings)
+        self._opened, self._rules = (source, scene, settings), rules
         self._pipeline: Pipeline = pipeline
         self._style = WindowStyle()
         self._began = self._kept = time.perf_counter()
@@ -172,6 +179,7 @@ class Window:
             pace=FrameBudget(self._rate),
             pivot=scene.camera.look_at,
             shaders=Watch(shader_files()),
+            rules=self._rules,
         )
         self.app.messages.complain(problem)
         self.app.leave = self._leave

@@ -111,6 +111,16 @@ float triangle_distance(vec3 a, vec3 b, vec3 c) {
     return t;
 }
 
+// Whether a ray meets the side of a triangle that its mesh hides. `turn`: 1 where the corners turn about its normal in
+// this order, 2 where they turn the other way, 0 where no side is hidden (glrt/packing/triangles.py).
+bool meets_hidden(ShearedRay ray, vec3 a, vec3 b, vec3 c, uint turn) {
+    vec3 shares = corner_shares(a, b, c);
+    bool is_left = shares.x + shares.y + shares.z < 0.0;
+    bool goes_up = ray.z.x + ray.z.y + ray.z.z > 0.0;  // along the axis that the ray is turned into
+    bool along_normal = (is_left == goes_up) == (turn == 1u);
+    return turn != 0u && along_normal;
+}
+
 vec3 unpacked_normal(uint bits) {
     vec2 flat_normal = vec2(ivec2(bits & 0xFFFFu, bits >> 16u)) / 32767.0 - 1.0;
     float z = 1.0 - abs(flat_normal.x) - abs(flat_normal.y);

@@ -30,8 +30,10 @@ Hit meet_leaf(Ray ray, ShearedRay turned, int instance, Slot slot, Hit hit, int 
         ivec2 triangles = first_triangle() + ivec2(slot.d.xy);
         if (HAS_INSTANCE) triangles += instance << INSTANCE_BITS;
         float first = triangle_distance(p, q, r);
+        if (HAS_HIDDEN_BACK && meets_hidden(turned, p, q, r, slot.d.z & 3u)) first = 0.0;
         if (triangles.x != ray.origin_shape) hit = nearer(ray, hit, first, triangles.x, ignored);
         float second = triangle_distance(p, r, s);
+        if (HAS_HIDDEN_BACK && meets_hidden(turned, p, r, s, slot.d.z >> 2u)) second = 0.0;
         if (triangles.y != ray.origin_shape) hit = nearer(ray, hit, second, triangles.y, ignored);
     }
     if (!HAS_TREE) return hit;

@@ -108,7 +108,9 @@ def _flat_shape(flags: set[str]) -> dict[str, Any]:
 def _triangle(material: str, flags: set[str]) -> dict[str, Any]:
     faces = np.eye(3), np.array([[0, 1, 2]])
     colors = np.eye(3) if "HAS_VERTEX_COLOR" in flags else None
-    return mesh(faces, material, smooth="HAS_SMOOTH" in flags, colors=colors)
+    backs = "hidden" if "HAS_HIDDEN_BACK" in flags and material != "lamp" else "both"
+    smooth = "HAS_SMOOTH" in flags
+    return mesh(faces, material, smooth=smooth, colors=colors, backfaces=backs)
 
 
 def _cone_lamp(flags: set[str]) -> dict[str, Any]:

@@ -1,6 +1,7 @@
 """glTF files that are wrong: refused by their place, and damaged ones read or refused."""
 
 import json
+import re
 import time
 from typing import Any
 
@@ -9,7 +10,7 @@ import pytest
 from glrt.core.errors import SceneError
 from glrt.scene.model_files.mesh_formats import decode_mesh
 from tests.scene.test_mesh_files import damaged
-from tests.support.gltf_files import Builder, textured_square
+from tests.support.gltf_files import Builder, square, textured_square
 
 
 def broken(change: str, value: Any) -> bytes:
@@ -26,12 +27,6 @@ def broken(change: str, value: Any) -> bytes:
 
 WRONG: dict[str, tuple[str, Any, str]] = {
     "another version": ("asset.version", "1.0", "asset.version must be 2.0, got '1.0'"),
-    "a needed extension": ("extensionsRequired", ["EXT_x"], "requires the extension 'EXT_x'"),
-    "another compression": (
-        "extensionsRequired",
-        ["EXT_meshopt_compression"],
-        "requires the extension 'EXT_meshopt_compression'",
-    ),
     "a view that is not there": ("accessors.0.bufferView", 99, "names bufferViews[99]"),
     "an accessor that is not there": ("meshes.0.primitives.0.indices", 99, "accessors[99]"),
     "a mesh that is not there": ("nodes.0.mesh", -1, "names meshes[-1]"),
@@ -55,6 +50,53 @@ def test_what_is_wrong_is_refused_by_its_place(name: str) -> None:
     with pytest.raises(SceneError, match=r"^here: 'thing.glb' is damaged") as caught:
         decode_mesh(broken(change, value), "thing.glb", "here")
     assert message in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("needed", "told"),
+    [
+        (["EXT_x"], "requires the extension 'EXT_x'"),
+        (["KHR_x", "KHR_draco_mesh_compression"], "the extension 'KHR_x'"),
+        (["EXT_meshopt_compression", 3], "the extensions 'EXT_meshopt_compression', 3"),
+        ([["EXT_x"]], "the extension a list"),
+    ],
+)
+def test_a_needed_extension_is_refused_by_its_name_and_not_as_damage(
+    needed: list[Any], told: str
+) -> None:
+    with pytest.raises(SceneError, match=r"^here: 'thing.glb' requires the ext") as caught:
+        decode_mesh(broken("extensionsRequired", needed), "thing.glb", "here")
+    assert told in str(caught.value)
+    assert "damaged" not in str(caught.value)
+
+
+@pytest.mark.parametrize("name", ["KHR_xmp_json_ld", "EXT_structural_metadata"])
+def test_extensions_that_change_no_picture_are_read(name: str) -> None:
+    assert decode_mesh(broken("extensionsRequired", [name]), "thing.glb", "here").faces.any()
+
+
+def is_read(text: str) -> bool:
+    try:
+        return bool(len(decode_mesh(text.encode(), "a.gltf", "here").faces))
+    except SceneError:
+        return False
+
+
+@pytest.mark.parametrize(("word", "changed"), [("4", "4.0"), ("4", "0.4e1"), ("0", "0.0")])
+def test_whole_numbers_may_be_written_as_floats(word: str, changed: str) -> None:
+    """https://json-schema.org/draft/2020-12/json-schema-core#name-instance-data-model"""
+    builder = Builder()
+    builder.shown(square(builder))
+    text = builder.gltf().decode()
+    number = re.compile(rf'(": |\[){word}(?=[,\]}}])')
+    assert number.search(text)
+    assert is_read(text)
+    assert is_read(number.sub(rf"\g<1>{changed}", text))
+
+
+def test_numbers_that_are_not_whole_are_refused_where_whole_ones_belong() -> None:
+    with pytest.raises(SceneError, match=r"names meshes\[0.5\]"):
+        decode_mesh(broken("nodes.0.mesh", 0.5), "thing.glb", "here")
 
 
 ENDS: dict[str, tuple[bytes, str]] = {

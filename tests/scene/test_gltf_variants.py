@@ -224,3 +224,38 @@ def test_bits_of_a_variant_are_those_of_a_file_with_its_materials(model: Path) -
     assert found.names == expected.names
     for key in ("vertices", "faces", "labels", "normals"):
         assert np.array_equal(getattr(found, key), getattr(expected, key))
+
+
+def two_in_one_place(**second: Any) -> Builder:
+    """Two red squares in one place; the second has more keys."""
+    builder = varied()
+    builder.json["nodes"] = []
+    for more in ({}, second):
+        builder.shown(square(builder, material=0, **more))
+    return builder
+
+
+def repeats(scene: Scene) -> bool:
+    return any("repeat others" in text for text in cautions(scene, settings_for(scene.render)))
+
+
+def parts(scene: Scene) -> dict[str | None, int]:
+    """The number of triangles of each part, covered ones included."""
+    return {it.part: len(it.triangles.faces) for it in scene.objects if isinstance(it, Mesh)}
+
+
+def test_of_two_squares_in_one_place_a_variant_loses_none(model: Path) -> None:
+    model.write_bytes(two_in_one_place(extensions=mapped((1, [0]))).glb())
+    usual, meadow = load(model), load(model, variant="meadow")
+    assert parts(usual) == {"red": 2}, "they are one, both red"
+    assert parts(meadow) == {"red": 2, "green": 2}
+    assert repeats(usual)
+    assert not repeats(meadow)
+
+
+def test_two_squares_in_one_place_that_a_variant_makes_alike_are_one(model: Path) -> None:
+    builder = two_in_one_place(extensions=mapped((0, [0])))
+    builder.json["meshes"][-1]["primitives"][0]["material"] = 1
+    model.write_bytes(builder.glb())
+    assert parts(load(model)) == {"red": 2, "green": 2}
+    assert parts(load(model, variant="meadow")) == {"red": 2}

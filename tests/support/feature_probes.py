@@ -29,6 +29,11 @@ PROBES = {
         "normal.y * instance.to_y",
         "{} * normal.y * instance.to_y",
     ),
+    "HAS_HIDDEN_BACK": (
+        "shapes/mesh.glsl",
+        "shares.x + shares.y + shares.z < 0.0",
+        "shares.x + {} * shares.y + shares.z < 0.0",
+    ),
     "HAS_VERTEX_COLOR": ("shapes/mesh.glsl", "first + shares.y", "first + {} * shares.y"),
     "HAS_MIRROR": ("bsdfs/metal.glsl", "if (mirror) return", "if (mirror && {} > 0.0) return"),
     "HAS_ROUGH_METAL": ("bsdfs/metal.glsl", "_normal(alpha, vertex.wo", "_normal({}, vertex.wo"),
@@ -142,6 +147,7 @@ NEEDED_TOO = {
     "HAS_INSTANCE": {"HAS_MESH"},
     "HAS_SMOOTH": {"HAS_MESH"},
     "HAS_VERTEX_COLOR": {"HAS_MESH"},
+    "HAS_HIDDEN_BACK": {"HAS_MESH"},
     "HAS_ONE_SIDED": {"HAS_DISK"},
     "HAS_MESH_LIGHT": {"HAS_MESH", "SAMPLE_LIGHTS"},
     "HAS_HORIZON": {"HAS_BACKGROUND"},
@@ -169,7 +175,8 @@ GONE_TOO = {
     "HAS_QUAD": {"HAS_QUAD_LIGHT", "QUADS_BY_AREA"},
     "HAS_QUAD_LIGHT": {"QUADS_BY_AREA"},
     "HAS_DISK": {"HAS_DISK_LIGHT"},
-    "HAS_MESH": {"HAS_MESH_LIGHT", "HAS_SMOOTH", "HAS_VERTEX_COLOR", "HAS_INSTANCE"},
+    "HAS_MESH": {"HAS_MESH_LIGHT", "HAS_SMOOTH", "HAS_VERTEX_COLOR", "HAS_INSTANCE"}
+    | {"HAS_HIDDEN_BACK"},
     "WEIGHT_BOTH": {"QUADS_BY_AREA", "HAS_PARTICLES"},
     "QUADS_BY_AREA": {"WEIGHT_BOTH", "HAS_PARTICLES"},
     "SAMPLE_LIGHTS": {"HAS_SPHERE_LIGHT", "HAS_QUAD_LIGHT", "WEIGHT_BOTH", "MANY_LIGHTS"}

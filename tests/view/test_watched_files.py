@@ -7,9 +7,11 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from PIL import Image
 
 from glrt.core.resources import folder
-from glrt.image.sources import load
+from glrt.image.sources import STRICT, FileRules, load
+from glrt.scene.loading.scene_files import files_of
 from glrt.scene.scene import Scene
 from glrt.scene.scenefile.toml import read_scene
 from glrt.settings import Settings
@@ -36,7 +38,10 @@ class Opened:
 
     def _session(self, scene: Scene) -> Any:
         """A stand-in for a session: it renders nothing."""
-        return SimpleNamespace(scene=scene, problem="", settings=Settings(), edit=self._edit)
+        opened = SimpleNamespace(scene=scene)
+        return SimpleNamespace(
+            scene=scene, problem="", settings=Settings(), edit=self._edit, opened=opened
+        )
 
     def _edit(self, scene: Scene) -> None:
         self.session.scene = scene
@@ -97,6 +102,20 @@ def test_a_scene_that_another_file_is_renamed_over_is_read_again(opened: Opened)
     os.replace("new", opened.file)
     assert opened.look() == ""
     assert opened.title == "replaced"
+
+
+def test_a_reload_allows_the_files_that_the_user_allowed(opened: Opened, tmp_path: Path) -> None:
+    Image.new("RGB", (2, 2), (9, 9, 9)).save(tmp_path / "wood.png")
+    painted = 'type = "lambertian"\ncolor = { image = "../wood.png" }'
+    text = opened.file.read_text()
+    head, _, rest = text.partition('type = "lambertian"\ncolor = ')
+    opened.files.rules = FileRules(allow_outside=True, variant="of a model saved as this scene")
+    opened.file.write_text(head + painted + rest[rest.index("\n") :])
+    assert opened.look() == ""
+    assert files_of(opened.session.scene) == ["../wood.png"]
+    opened.files.rules = STRICT
+    opened.file.write_text(opened.file.read_text() + "\n")
+    assert "--allow-outside" in opened.look()
 
 
 def test_a_folder_in_place_of_the_scene_loses_nothing(opened: Opened) -> None:

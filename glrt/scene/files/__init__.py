@@ -7,5 +7,6 @@ Modules, each importing only what stands above it:
 - named_files: files named by a path
 - named_images: images named by a path
 - named_meshes: meshes named by a path
+- named_cameras: cameras named by a path
 - named_grids: grids of densities named by a path
 """

@@ -1,21 +1,26 @@
 """Read the contents of files that a scene names."""
 
+from pathlib import PurePosixPath
+
 import numpy as np
 
 from glrt.core.errors import SceneError
+from glrt.core.text import quoted
 from glrt.scene.files.assets import Asset, AssetReader, folder_of
+from glrt.scene.files.named_cameras import CameraFile
 from glrt.scene.files.named_files import container_of
 from glrt.scene.files.named_grids import GridFile, decode_grid
 from glrt.scene.files.named_images import ImageFile, Pixels, Texels, TextureImage
 from glrt.scene.files.named_meshes import MeshFile
 from glrt.scene.images.image_files import decode_image
-from glrt.scene.model_files.gltf.document import Document
+from glrt.scene.model_files.gltf.cameras import FileCameras
+from glrt.scene.model_files.gltf.document import Document, LacksExtensionError
 from glrt.scene.model_files.gltf.images import image_content
-from glrt.scene.model_files.mesh_formats import decode_mesh
+from glrt.scene.model_files.mesh_formats import GLTF, decode_mesh
 from glrt.scene.values import LARGEST
 
 BRIGHTEST = 65_504.0  # of a texture: the largest half float
-NamedContent = ImageFile | TextureImage | MeshFile | GridFile
+NamedContent = ImageFile | TextureImage | MeshFile | CameraFile | GridFile
 
 
 def is_read(named: NamedContent) -> bool:
@@ -24,11 +29,15 @@ def is_read(named: NamedContent) -> bool:
         return named.pixels is not None
     if isinstance(named, GridFile):
         return named.voxels is not None
+    if isinstance(named, CameraFile):
+        return named.cameras is not None
     return (named.texels if isinstance(named, TextureImage) else named.triangles) is not None
 
 
 def with_content(named: NamedContent, reader: AssetReader, where: str) -> NamedContent:
     """Return a file with its content; raises `SceneError`, which begins with `where`."""
+    if isinstance(named, CameraFile):
+        return _cameras(named, reader, where)
     asset = reader.read(named.path, where)
     if isinstance(named, MeshFile):
         beside = Beside(asset, reader, where)
@@ -60,6 +69,24 @@ class Beside:
         found = self._reader.read(spelled, f"{self._where}: {self._asset.path}")
         self.hashes[found.path] = found.sha256
         return found.content
+
+
+def _cameras(named: CameraFile, reader: AssetReader, where: str) -> CameraFile:
+    if PurePosixPath(named.file).suffix.lower() not in GLTF:
+        raise SceneError(
+            f"{where}: {quoted(named.file)} is no glTF file, which ends in .glb or .gltf, and glrt "
+            "reads cameras of those alone. Export the camera as glTF."
+        )
+    asset = reader.read(named.path, where)
+    beside = Beside(asset, reader, where)
+    try:
+        cameras = FileCameras(Document(asset.content, beside))
+    except LacksExtensionError as error:
+        raise SceneError(f"{where}: {quoted(named.file)} {error}. Export it without.") from None
+    except ValueError as error:
+        raise SceneError(f"{where}: {quoted(named.file)}: {error}. Export it again.") from None
+    found = named.read_as(asset.sha256, cameras, asset.origin)
+    return found.with_companions(beside.hashes)
 
 
 def _texture(named: TextureImage, asset: Asset, reader: AssetReader, where: str) -> TextureImage:

@@ -105,6 +105,8 @@ def of_gltf(shape: Mesh, reader: AssetReader, where: str) -> Found:
             if look.table.get("transmission") and not look.table["thin"] and part.opening:
                 look.unread.append("the volume of glass that is not closed")
                 make_pane(look)
+            if look.hides_backs and not shape.hides_backs and part.opening:
+                look.unread.append(f"the hidden backs of {quoted(name)} (backfaces = hidden)")
             if look.is_unlit and part.colors is not None:
                 dye_unlit(look, part.colors)
             here = f"{where}: {shape.file.file}: material {quoted(name)}"
@@ -123,12 +125,11 @@ def of_gltf(shape: Mesh, reader: AssetReader, where: str) -> Found:
 
 def _of_look(look: Look, images: "_Images", here: str) -> Material:
     material = validated(Principled, look.table, here)
-    lost = images.lost(material)
-    if not lost:
-        return material
-    for key in lost:
-        without_image(look, key)
-    return validated(Principled, look.table, here)
+    while lost := images.lost(material):
+        for key in lost:
+            without_image(look, key)
+        material = validated(Principled, look.table, here)
+    return material
 
 
 class _Images:

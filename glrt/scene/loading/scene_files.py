@@ -7,12 +7,14 @@ import numpy as np
 
 from glrt.core.errors import SceneError
 from glrt.core.text import quoted
+from glrt.scene.camera import Camera
 from glrt.scene.density import Density
 from glrt.scene.files.assets import AssetFolder, AssetReader
 from glrt.scene.files.named_grids import GridFile
 from glrt.scene.files.named_images import ImageFile, TextureImage
 from glrt.scene.grids import grid_problems
 from glrt.scene.instancing import tree_sizes, with_own_tree
+from glrt.scene.loading.file_camera import with_camera_of_file
 from glrt.scene.loading.file_contents import NamedContent, is_read, with_content
 from glrt.scene.loading.mesh_parts import lacks_material, part_problem, with_own_materials
 from glrt.scene.materials.base import Opaque
@@ -21,6 +23,7 @@ from glrt.scene.materials.nothing import Nothing
 from glrt.scene.medium import Medium
 from glrt.scene.meshes.triangle_meshes import MOST_TRIANGLES
 from glrt.scene.schema.fields import SceneFields
+from glrt.scene.schema.validation import validated
 from glrt.scene.shapes.mesh import Mesh
 from glrt.scene.volumes import bounds_a_volume, volume_problems
 
@@ -58,7 +61,10 @@ def with_files(
     the folder, no image or mesh, or not as expected.
     """
     reader = AssetReader(folder)
+    is_new = scene.camera.file is not None and not is_read(scene.camera.file)
     scene = _read(scene, reader, source)
+    if is_new and folder.expected is None:  # the recipe of a picture holds it all
+        scene = with_camera_of_file(scene, source)
     scene = _read(with_own_materials(scene, reader, source, rest), reader, source)
     problem = next(placing_problems(scene), None)
     if problem:
@@ -71,7 +77,7 @@ def _read(scene: SceneType, reader: AssetReader, source: str) -> SceneType:
     for key, named in named_files(scene):
         if not is_read(named) and named not in found:
             found[named] = with_content(named, reader, f"{source}: {key}")
-    return _with(scene, found) if found else scene
+    return _with(scene, found, f"{source}: ") if found else scene
 
 
 def with_hashes(scene: SceneType, hashes: Mapping[str, str]) -> SceneType:
@@ -170,11 +176,19 @@ def _too_many(scene: SceneFields) -> Iterator[str]:
         )
 
 
-def _with(scene: SceneType, known: Files) -> SceneType:
-    """Return the scene with values of `known` in place of the files that equal their keys."""
+def _with(scene: SceneType, known: Files, source: str = "") -> SceneType:
+    """Return the scene with values of `known` in place of the files that equal their keys.
+
+    Raises `SceneError`, which begins with `source`, if a file lacks the camera.
+    """
     image, objects = scene.background.image, scene.objects
     images = {key: value for key, value in known.items() if isinstance(value, TextureImage)}
     changes: dict[str, Any] = {}
+    camera = scene.camera
+    if camera.file is not None and camera.file in known:
+        fields = {name: value for name, value in camera if value is not None}
+        file = {"file": known[camera.file]}
+        changes["camera"] = validated(Camera, fields | file, f"{source}camera")
     if image is not None and image in known:
         changes["background"] = scene.background.model_copy(update={"image": known[image]})
     if any(shape.file in known for _, shape in _meshes(scene)):
@@ -197,6 +211,8 @@ def _with(scene: SceneType, known: Files) -> SceneType:
 
 def named_files(scene: SceneFields) -> Iterator[tuple[str, NamedContent]]:
     """Yield the files that a scene names, with the keys that name them."""
+    if scene.camera.file is not None:
+        yield "camera.file", scene.camera.file
     if scene.background.image is not None:
         yield "background.image", scene.background.image
     for index, shape in _meshes(scene):

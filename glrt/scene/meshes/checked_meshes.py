@@ -37,7 +37,7 @@ def checked(given: MeshArrays) -> TriangleMesh:
     """Return a mesh of arrays.
 
     Left out are triangles with two equal corners, and triangles that repeat another one of their
-    label.
+    label, or of their sort if there are sorts: then labels may differ in a variant.
 
     Raises ValueError, which says what is wrong with which row.
     """
@@ -56,7 +56,7 @@ def checked(given: MeshArrays) -> TriangleMesh:
     whole = ~equal.any(axis=1)
     if not whole.any():
         raise ValueError("it has no triangle with three corners")
-    again = repeated(points, triangles, labels) & whole
+    again = repeated(points, triangles, labels if sorts is None else sorts) & whole
     whole &= ~again
     kept = triangles[whole]
     used = np.zeros(len(points), bool)

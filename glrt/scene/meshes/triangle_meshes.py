@@ -3,13 +3,14 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from glrt.core.text import counted, unknown
 from glrt.scene.meshes.creases import by_angle, by_groups
+from glrt.scene.meshes.repeated_triangles import repeated
 from glrt.scene.meshes.vertex_means import mean_normals, mean_tangents, places
 
 Floats = NDArray[np.float64]
@@ -139,24 +140,42 @@ class TriangleMesh:
         groups = None if self.groups is None else self.groups[kept]
         return TriangleMesh(*own, uv=uv, groups=groups, tangents=tangents).outward
 
-    def varied(self, name: str) -> "TriangleMesh":
-        """Return the mesh with the materials of a variant; ValueError if the file lacks it."""
+    def varied(self, name: str | None) -> "TriangleMesh":
+        """Return the mesh with the materials of a variant, by default with those without one.
+
+        Triangles that repeat another one of their material are left out. ValueError if the file
+        lacks the variant.
+        """
         if not self.variants:
+            if name is None:
+                return self
             raise ValueError("it has no variants of its materials: leave `variant` out")
-        if name not in self.variants:
+        if name is not None and name not in self.variants:
             raise ValueError(unknown("variant", name, self.variants, "The file has"))
         return self._varied(name)
 
     @cached_property
-    def _varied(self) -> Callable[[str], "TriangleMesh"]:
+    def _varied(self) -> Callable[[str | None], "TriangleMesh"]:
         return lru_cache(MOST_KEPT)(self._with_variant)
 
-    def _with_variant(self, name: str) -> "TriangleMesh":
+    def _with_variant(self, name: str | None) -> "TriangleMesh":
+        if name is None:
+            return self._each_once()
         assert self.sorts is not None
         materials = self.variants[name]
         names = tuple(dict.fromkeys(materials))
         labels = np.array([names.index(material) for material in materials])[self.sorts]
-        return replace(self, names=names, labels=labels)
+        return replace(self, names=names, labels=labels)._each_once()
+
+    def _each_once(self) -> "TriangleMesh":
+        assert self.sorts is not None
+        assert self.labels is not None
+        again = repeated(self.vertices, self.faces, self.labels)
+        if not again.any():
+            return self
+        rows = {"faces": self.faces, "labels": self.labels, "sorts": self.sorts}
+        kept: dict[str, Any] = {name: given[~again] for name, given in rows.items()}
+        return replace(self, **kept, repeated=self.repeated + int(again.sum()))
 
     def creased(self, degrees: float) -> "TriangleMesh":
         """Return the mesh with normals as its format means them, and vertices divided at creases.

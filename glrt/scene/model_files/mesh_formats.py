@@ -10,7 +10,7 @@ from glrt.core.text import quoted
 from glrt.scene.meshes.checked_meshes import of_file
 from glrt.scene.meshes.triangle_meshes import TriangleMesh
 from glrt.scene.model_files.gltf.animations import Poses
-from glrt.scene.model_files.gltf.document import Document
+from glrt.scene.model_files.gltf.document import Document, LacksExtensionError
 from glrt.scene.model_files.gltf.draco import NotInstalledError
 from glrt.scene.model_files.gltf.primitives import mesh_of
 from glrt.scene.model_files.obj import read_obj
@@ -46,6 +46,9 @@ def decode_mesh(content: bytes, path: str, where: str, fetch: Fetch | None = Non
         raise  # of a file next to it
     except NotInstalledError as error:
         raise SceneError(f"{where}: {quoted(path)} {error}") from None
+    except LacksExtensionError as error:
+        advice = "Export it without, or convert it by a program that reads it"
+        raise SceneError(f"{where}: {quoted(path)} {error}. {advice}.") from None
     except MemoryError:
         problem = "it says that it is larger than the memory"
     except (ValueError, LookupError, TypeError, ArithmeticError) as error:

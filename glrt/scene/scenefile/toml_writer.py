@@ -60,7 +60,7 @@ def _with_comments(text: str, scene: Scene) -> str | None:
     if len(text) > MOST_LETTERS:
         return None
     try:
-        before = scene_to_dict(parse_scene(tomllib.loads(text), ""))
+        before = _as_written(parse_scene(tomllib.loads(text), ""))
         after, short = scene_to_dict(scene), short_tables(scene)
         texts = ["\n".join(toml_lines({"objects": [it]})) + "\n" for it in short.get("objects", [])]
         text, before["objects"] = with_as_many(text, before["objects"], after["objects"], texts)
@@ -69,6 +69,15 @@ def _with_comments(text: str, scene: Scene) -> str | None:
         return new if told == scene else None
     except (ValueError, SceneError):
         return None
+
+
+def _as_written(scene: Scene) -> dict[str, Any]:
+    """Return a scene as plain tables, without a size that the file of its camera would give."""
+    tables = scene_to_dict(scene)
+    if scene.camera.file:
+        for key in {"width", "height"} - scene.render.model_fields_set:
+            del tables["render"][key]
+    return tables
 
 
 def _changed(text: str, before: Table, after: Table, short: Table) -> str:

@@ -54,6 +54,9 @@ def short_tables(scene: SceneFields) -> dict[str, Any]:
     for table, thing in zip(found.get("objects", []), scene.objects, strict=True):
         kind = {"shape": thing.shape}
         table.update({**kind, **{key: table.pop(key) for key in list(table) if key != "shape"}})
+    if scene.camera.file:  # the file would give another size
+        size = {key: getattr(scene.render, key) for key in ("width", "height")}
+        found["render"] = {**size, **found.get("render", {})}
     title = {"title": scene.title} if scene.title else {}
     return {**title, "format": scene.format, **found}
 

@@ -8,6 +8,7 @@ Modules, each importing only what stands above it:
 - base: base classes of shapes
 - box: boxes
 - mesh_values: factors and matrices of meshes
+- mesh_rays: rays and points against triangles
 - mesh: placed triangle meshes
 - cylinder: cylinders, with caps or open
 - flat_polygons: flat surfaces of objects as polygons

@@ -12,11 +12,13 @@ from glrt.scene.meshes.triangle_meshes import TriangleMesh
 from glrt.scene.shapes.base import Array, Sided, along_and_rest
 from glrt.scene.shapes.box import rotation
 from glrt.scene.shapes.faces import Faces, box_faces, faces_of_triangles, welded
+from glrt.scene.shapes.mesh_rays import nearest, winds_around
 from glrt.scene.shapes.mesh_values import Factors, Matrix
 from glrt.scene.values import LARGEST, Name, Number, Triple, Vector
 from glrt.settings import Cost, Editable
 
 Smooth = Literal[True, False, "auto"]
+Backs = Literal["both", "hidden"]
 MOST_OUTLINED = 200_000  # triangles whose edges may make an outline
 
 
@@ -86,6 +88,12 @@ class Mesh(Sided):
         description="angle between triangles from which an edge is sharp, with smooth = auto",
     )
 
+    backfaces: Annotated[Backs, Editable(Cost.RECOMPILE)] = Field(
+        "both",
+        description="whether both sides of triangles are there; hidden: rays pass triangles that "
+        "they meet from behind, and lamps emit from their front alone",
+    )
+
     has_inside = True
     has_coordinates = True
     anchor = "translate"
@@ -111,6 +119,7 @@ class Mesh(Sided):
             variant: str | None = None,
             smooth: Smooth = True,
             crease: Number = 40.0,
+            backfaces: Backs = "both",
             material: str = "",
             part: str | None = None,
             name: str | None = None,
@@ -149,15 +158,25 @@ class Mesh(Sided):
             if whole.poses is None:
                 raise ValueError("it has no animation: leave `time` out")
             whole = whole.poses.at(self.animation, self.time)
-        if self.variant is not None:
-            whole = whole.varied(self.variant)
+        whole = whole.varied(self.variant)
         return whole.creased(self.crease) if self.smooth == "auto" else whole
 
     @property
     def form(self) -> tuple[object, ...]:
         """The triangles by name: meshes of one form share them, wherever they stand."""
         crease = self.crease if self.smooth == "auto" else None
-        return self.file.sha256, self.part, self.variant, crease, self.animation, self.time
+        own = self.part, self.variant, crease, self.animation, self.time
+        return self.file.sha256, *own, self.hides_backs
+
+    @property
+    def hides_backs(self) -> bool:
+        """Whether rays pass its triangles from behind."""
+        return self.backfaces == "hidden"
+
+    @property
+    def is_one_sided(self) -> bool:
+        """Whether it emits from its front alone."""
+        return super().is_one_sided or self.hides_backs
 
     @property
     def linear(self) -> Array:
@@ -240,14 +259,7 @@ class Mesh(Sided):
         """Return whether the mesh winds around a point, (3,) (van Oosterom and Strackee 1983)."""
         if np.linalg.norm(point - self.middle) > self.reach:
             return False
-        corners = self.world_vertices - point
-        a, b, c = (corners[self.triangles.faces[:, k]] for k in range(3))
-        la, lb, lc = (np.linalg.norm(corner, axis=1) for corner in (a, b, c))
-        volume = (a * np.cross(b, c)).sum(axis=1)
-        rest = la * lb * lc + (a * b).sum(axis=1) * lc
-        rest += (b * c).sum(axis=1) * la + (c * a).sum(axis=1) * lb
-        turns = abs(np.arctan2(volume, rest).sum()) / (2 * np.pi)
-        return bool(turns > 0.5)
+        return winds_around(self.world_vertices - point, self.triangles.faces)
 
     @property
     def faces(self) -> Faces:
@@ -281,10 +293,4 @@ class Mesh(Sided):
         inverse = np.linalg.inv(self.linear)
         start, along = inverse @ (origin - self.origin), inverse @ direction
         mesh = self.triangles
-        a, b, c = (mesh.vertices[mesh.faces[:, k]] - start for k in range(3))
-        u, v, w = (np.cross(x, y) @ along for x, y in ((c, b), (a, c), (b, a)))
-        with np.errstate(all="ignore"):
-            normal = np.cross(b - a, c - a)
-            t = (a * normal).sum(axis=1) / (normal @ along)
-            same = ((u >= 0) & (v >= 0) & (w >= 0)) | ((u <= 0) & (v <= 0) & (w <= 0))
-            return float(np.where(same & (t > 0), t, math.inf).min())
+        return nearest(mesh.vertices - start, mesh.faces, along, self.hides_backs)

@@ -4,8 +4,10 @@ Modules, each importing only what stands above it:
 
 - scene_edits: objects and materials added, copied, renamed, removed
 - media_edits: media added, chosen and changed
+- file_camera: cameras of glTF files, read again and saved
 - new_objects: new objects and their placement
 - edited_state: the value that undo restores
 - state_differences: differences of two states, in words
+- saved_state: edits that are not saved
 - editing: current and earlier states
 """

@@ -152,8 +152,9 @@ def _samples(app: App) -> None:
 
 def _camera(app: App) -> None:
     camera = app.camera
-    values = {**dict(camera), "focus_distance": camera.resolved_focus_distance}
     names = ("fov", "focus_distance", "defocus_angle", "position", "look_at")
+    values = {name: getattr(camera, name) for name in names}
+    values["focus_distance"] = camera.resolved_focus_distance
     changes = edited_fields(tuple(CAMERA[name] for name in names), values)
     if changes:
         app.edit_scene(f"camera {list(changes)}", partial(_with_camera, **changes))

@@ -24,7 +24,7 @@ def text_of(header: Header, scene: Scene) -> str:
     return header.line() + toml_text(scene)
 
 
-def scene_of(file: Path, header: Header, saved: Scene, folder: Path) -> Scene:
+def scene_of(file: Path, header: Header, saved: Scene, folder: AssetFolder) -> Scene:
     """Return the scene in a recovery file, with the content of its files.
 
     `saved` is the scene without the edits, whose files are not read again. Others lie in `folder`,
@@ -34,7 +34,7 @@ def scene_of(file: Path, header: Header, saved: Scene, folder: Path) -> Scene:
     for name in header.models:
         model = Path(name)
         scene = _with_content_of(scene, model_scene(model, AssetFolder(model.parent), name))
-    return with_files(scene, AssetFolder(folder), str(file))
+    return with_files(scene, folder, str(file))
 
 
 def _with_content_of(scene: Scene, other: Scene) -> Scene:

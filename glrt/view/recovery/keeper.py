@@ -12,6 +12,7 @@ from glrt.core.errors import GlrtError
 from glrt.core.files import reason, write_text
 from glrt.core.text import escaped
 from glrt.image.sources import shown
+from glrt.scene.files.assets import AssetFolder
 from glrt.scene.scenefile.catalog import find
 from glrt.scene.scenefile.toml_writer import scene_with
 from glrt.view.edits.edited_state import State
@@ -105,7 +106,8 @@ class Recovery:
         """Restore the edits that are offered, as one step of undo; a failure is reported."""
         offer, files = self.offers[0], self._files
         with files.messages.reporting():
-            folder = find(files.source).absolute().parent
+            base = files.rules.folder or find(files.source).absolute().parent
+            folder = AssetFolder(base, files.rules.allow_outside)
             scene = scene_of(offer.file, offer.header, files.saved, folder)
             files.session.edit(scene, **dict(scene.render))
             if files.session.scene is scene:

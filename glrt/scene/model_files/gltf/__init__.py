@@ -12,5 +12,6 @@ Modules, each importing only what stands above it:
 - animations: animations of nodes, skins and morph targets
 - images: embedded and external images
 - materials: materials, converted to those of a scene
-- cameras_lights: cameras and lights, converted to those of a scene
+- cameras: cameras, and how they move
+- lights: lights, converted to those of a scene
 """

@@ -1,6 +1,6 @@
 """Animations of a glTF file: nodes, skins and morph targets at a moment."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import lru_cache
 from typing import Any, NamedTuple
 
@@ -59,15 +59,7 @@ class Poses:
     def __init__(self, document: Document) -> None:
         """Read the keys of all animations; ValueError for keys that do not fit."""
         self._document = document
-        self._channels = dict[str, list[Channel]]()
-        for number, given in enumerate(document.items("animations")):
-            here = f"animations[{number}]"
-            table = document.table(given, here)
-            name = table.get("name")
-            usable = isinstance(name, str) and name.isprintable() and name not in self._channels
-            self._channels[name if usable and name else str(number)] = _channels(
-                document, table, here
-            )
+        self._channels = channels_of(document)
         self._posed = lru_cache(MOST_KEPT)(self._pose)
 
     @property
@@ -82,7 +74,7 @@ class Poses:
 
     def seconds(self, name: str) -> float:
         """Return the time of the last key of an animation."""
-        return max((float(c.times[-1]) for c in self._channels[name]), default=0.0)
+        return seconds_of(self._channels[name])
 
     def at(self, name: str | None, moment: float) -> TriangleMesh:
         """Return the mesh at a moment in seconds of an animation, by default the usual one.
@@ -99,10 +91,35 @@ class Poses:
 
     def _changes(self, name: str, moment: float) -> Mapping[int, Mapping[str, Any]]:
         """Return the values of nodes that move, by number of the node and by key."""
-        found = dict[int, dict[str, Any]]()
-        for channel in self._channels[name]:
-            found.setdefault(channel.node, {})[channel.path] = channel.at(moment)
-        return found
+        return values_at(self._channels[name], moment)
+
+
+def channels_of(document: Document) -> dict[str, list[Channel]]:
+    """Return the channels of each animation, by its name or its number from 0.
+
+    Raises ValueError for keys that do not fit.
+    """
+    found = dict[str, list[Channel]]()
+    for number, given in enumerate(document.items("animations")):
+        here = f"animations[{number}]"
+        table = document.table(given, here)
+        name = table.get("name")
+        usable = isinstance(name, str) and name.isprintable() and name not in found
+        found[name if usable and name else str(number)] = _channels(document, table, here)
+    return found
+
+
+def seconds_of(channels: Iterable[Channel]) -> float:
+    """Return the time of the last key of some channels; 0 without any."""
+    return max((float(channel.times[-1]) for channel in channels), default=0.0)
+
+
+def values_at(channels: Iterable[Channel], moment: float) -> dict[int, dict[str, Any]]:
+    """Return the values of nodes at a moment, by number of the node and by key."""
+    found = dict[int, dict[str, Any]]()
+    for channel in channels:
+        found.setdefault(channel.node, {})[channel.path] = channel.at(moment)
+    return found
 
 
 def _channels(document: Document, animation: dict[str, Any], here: str) -> list[Channel]:

@@ -27,9 +27,26 @@ KNOWN = {  # extensions that are read, or change nothing here
     "KHR_materials_variants",
     "KHR_texture_transform",
     "KHR_lights_punctual",
+    "EXT_texture_webp",
+    # without an effect on a picture: metadata, and what a user may touch
+    "KHR_xmp_json_ld",
+    "KHR_xmp",
+    "EXT_structural_metadata",
+    "EXT_mesh_features",
+    "EXT_feature_metadata",
+    "AGI_articulations",
+    "AGI_stk_metadata",
+    "KHR_node_selectability",
+    "KHR_node_hoverability",
+    "GODOT_single_root",
 }
 _MAGIC, _JSON, _BIN = 0x46546C67, 0x4E4F534A, 0x004E4942
 _LONGEST_JSON = 256 << 20  # bytes
+_WHOLE = 2**53  # below it a float64 holds every whole number
+
+
+class LacksExtensionError(ValueError):
+    """A file requires an extension that glrt does not read; the message names it."""
 
 
 class Document:
@@ -44,9 +61,7 @@ class Document:
         if not isinstance(version, str) or not version.startswith("2."):
             raise ValueError(f"asset.version must be 2.0, got {_shown(version)}")
         needed = self.json.get("extensionsRequired", [])
-        for name in needed if isinstance(needed, list) else []:
-            if name not in KNOWN:
-                raise ValueError(f"it requires the extension {_shown(name)}, which glrt lacks")
+        _check_extensions(needed if isinstance(needed, list) else [])
 
     @cached_property
     def unknown_extensions(self) -> list[str]:
@@ -156,6 +171,14 @@ def numbers(
     return tuple(number(each, f"{where}[{place}]", low, high) for place, each in enumerate(value))
 
 
+def _check_extensions(needed: list[Any]) -> None:
+    lacking = [it for it in needed if not (isinstance(it, str) and it in KNOWN)]
+    if lacking:
+        noun = "the extension" if len(lacking) == 1 else "the extensions"
+        names = ", ".join(map(_shown, lacking))
+        raise LacksExtensionError(f"requires {noun} {names}, which glrt does not read")
+
+
 def _chunks(content: bytes) -> tuple[bytes, bytes | None]:
     """Return the JSON and the binary part, or None for the latter."""
     if content[:4] != b"glTF":
@@ -188,7 +211,8 @@ def _parsed(text: bytes) -> dict[str, Any]:
     if len(text) > _LONGEST_JSON:
         raise ValueError(f"its JSON is longer than {_LONGEST_JSON >> 20} MiB")
     try:
-        found = json.loads(text.rstrip(b"\0").decode("utf-8-sig"), parse_constant=_refused)
+        plain = text.rstrip(b"\0").decode("utf-8-sig")
+        found = json.loads(plain, parse_constant=_refused, parse_float=_plain_number)
     except RecursionError:
         raise ValueError("its JSON is nested too deeply") from None
     except UnicodeDecodeError:
@@ -198,6 +222,12 @@ def _parsed(text: bytes) -> dict[str, Any]:
     if not isinstance(found, dict):
         raise ValueError("its JSON is no table")
     return found
+
+
+def _plain_number(word: str) -> float:
+    """Return a number of JSON, whose schema takes 4.0 for a whole number."""
+    value = float(word)
+    return int(value) if abs(value) < _WHOLE and value.is_integer() else value
 
 
 def _refused(word: str) -> Any:

@@ -24,6 +24,7 @@ class TextureTables:
     def __init__(self, document: Document, path: str, folder: str) -> None:
         """Take the path of the file in the scene, and its `folder` with '/' at the end."""
         self._document, self._path, self._folder = document, path, folder
+        self.spares: dict[str, str] = {}  # shown for unreadable images
 
     def table(self, given: Any, here: str) -> dict[str, Any] | None:
         """Return the table for a material's reference to a texture; None if there is none."""
@@ -31,11 +32,10 @@ class TextureTables:
             return None
         document, info = self._document, self._document.table(given, here)
         texture = document.item("textures", info.get("index"), f"{here}.index")
-        if "source" not in texture:
-            return None  # its format needs an extension
         name = f"textures[{info['index']}]"
-        place = image_place(document, texture["source"], f"{name}.source")
-        file = f"{self._path}#{place.number}" if place.path is None else self._folder + place.path
+        file = self._image(texture, name)
+        if file is None:
+            return None  # its format needs an extension
         sampler = (
             document.item("samplers", texture["sampler"], f"{name}.sampler")
             if "sampler" in texture
@@ -47,6 +47,19 @@ class TextureTables:
         if sampler.get("magFilter") == _NEAREST:
             found["filter"] = "nearest"
         return found
+
+    def _image(self, texture: dict[str, Any], name: str) -> str | None:
+        """Return the path of the image of a texture: WebP where there is one."""
+        own = self._document.extension(texture, "EXT_texture_webp", name) or {}
+        files = list[str]()
+        for table in (own, texture):
+            if "source" in table:
+                place = image_place(self._document, table["source"], f"{name}.source")
+                inside = f"{self._path}#{place.number}"
+                files.append(inside if place.path is None else self._folder + place.path)
+        if len(files) > 1:
+            self.spares[files[0]] = files[1]
+        return files[0] if files else None
 
     def _placing(self, info: dict[str, Any], here: str) -> dict[str, Any]:
         found: dict[str, Any] = {}
@@ -84,6 +97,9 @@ class Look:
     table: dict[str, Any]
     unread: list[str] = field(default_factory=list)
     is_unlit: bool = False
+    hides_backs: bool = False  # doubleSided = false, as the file states
+    spares: dict[str, str] = field(default_factory=dict)  # shown for unreadable images
+    lost: set[tuple[str, str]] = field(default_factory=set)  # keys and images
 
     def number(self, value: Any, where: str, most: float = 1.0) -> float:
         """Return a number, moved into 0 to `most`; `unread` lists a change beyond rounding."""
@@ -111,7 +127,7 @@ def looks_of(document: Document, path: str) -> dict[str, Look]:
 
 def _look(document: Document, textures: TextureTables, index: int) -> Look:
     here, given = f"materials[{index}]", document.items("materials")[index]
-    look = Look(dict(_PLAIN))
+    look = Look(dict(_PLAIN), spares=textures.spares)
     _metallic_roughness(document, textures, given, here, look)
     _surface(document, textures, given, here, look)
     is_unlit = document.extension(given, "KHR_materials_unlit", here) is not None
@@ -119,6 +135,7 @@ def _look(document: Document, textures: TextureTables, index: int) -> Look:
         _emission(document, textures, given, here, look)
     _layers(document, textures, given, here, look)
     look.is_unlit = is_unlit
+    look.hides_backs = given.get("doubleSided") is False
     if is_unlit:
         _let_shine(look)
     return look
@@ -250,8 +267,16 @@ def dye_unlit(look: Look, colors: NDArray[np.float64]) -> None:
 
 
 def without_image(look: Look, key: str) -> None:
-    """Leave out the image of a key; its factor stays, except for emission and normals."""
+    """Leave out the image of a key, or take the one that the file has in its stead.
+
+    Without an image the factor stays, except for emission and normals.
+    """
     table = look.table.pop(key)
+    look.lost.add((key, table["image"]))
+    spare = look.spares.get(table["image"], "")
+    if spare and (key, spare) not in look.lost:
+        look.table[key] = {**table, "image": spare}
+        return
     look.unread.append(f"{key} {quoted(table['image'])}, which cannot be read")
     if key not in ("normal", "emission"):
         look.table[key] = table["factor"]

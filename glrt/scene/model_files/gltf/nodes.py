@@ -37,11 +37,8 @@ def placed_nodes(
             raise ValueError(f"{here} stands below itself, or in two places")
         seen.add(index)
         if index in changes:
-            node = {key: value for key, value in node.items() if key != "matrix"}
-            node |= changes[index]
-        matrix = around @ _matrix(node, here)
-        if not np.isfinite(matrix).all():
-            raise ValueError(f"{here}: its transforms lead beyond all numbers")
+            node = changed(node, changes[index])
+        matrix = checked_matrix(around @ matrix_of(node, here), here)
         yield Placed(node, index, matrix)
         children = document.list(node.get("children", []), f"{here}.children")
         waiting += [(child, matrix) for child in reversed(children)]
@@ -62,7 +59,20 @@ def _roots(document: Document) -> list[Any]:
     return document.list(shown.get("nodes", []), "nodes of the scene")
 
 
-def _matrix(node: dict[str, Any], here: str) -> Matrix:
+def changed(node: Mapping[str, Any], values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a node with other values of its translation, rotation, scale or weights."""
+    return {key: value for key, value in node.items() if key != "matrix"} | dict(values)
+
+
+def checked_matrix(matrix: Matrix, here: str) -> Matrix:
+    """Return the matrix; ValueError if a number of it is not finite."""
+    if not np.isfinite(matrix).all():
+        raise ValueError(f"{here}: its transforms lead beyond all numbers")
+    return matrix
+
+
+def matrix_of(node: Mapping[str, Any], here: str) -> Matrix:
+    """Return the matrix of a node, (4, 4), to the coordinates of its parent."""
     if "matrix" in node:  # column by column
         return np.array(numbers(node["matrix"], 16, f"{here}.matrix")).reshape(4, 4).T
     move = numbers(node.get("translation", [0, 0, 0]), 3, f"{here}.translation")

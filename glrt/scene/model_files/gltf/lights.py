@@ -1,4 +1,4 @@
-"""Convert cameras and lights of a glTF file to those of a scene."""
+"""Convert lights of a glTF file to those of a scene."""
 
 import math
 from typing import Any
@@ -10,40 +10,6 @@ from glrt.scene.model_files.gltf.nodes import Placed, placed_nodes
 
 LUMENS = 683.0  # lumens of a watt at the most visible wavelength: candela and lux become W
 LAMP_SIZE = 0.01  # radius of the sphere of a point light, over the radius of the model
-
-
-def camera_of(document: Document) -> tuple[dict[str, Any], float | None] | None:
-    """Return the table of the first perspective camera, and its width over height if stated."""
-    for placed in placed_nodes(document):
-        if "camera" not in placed.node:
-            continue
-        index = placed.node["camera"]
-        camera, here = document.item("cameras", index, "a node"), f"cameras[{index}]"
-        if camera.get("type") != "perspective":
-            continue
-        own = document.table(camera.get("perspective"), f"{here}.perspective")
-        fov = number(own.get("yfov"), f"{here}.perspective.yfov", 1e-3, 3.1)
-        aspect = own.get("aspectRatio")
-        if aspect is not None:
-            aspect = number(aspect, f"{here}.perspective.aspectRatio", 0.05, 20)
-        right_up_back = placed.matrix[:3, :3]
-        if abs(np.linalg.det(right_up_back)) == 0:
-            raise ValueError(f"{here} stands in a node whose transform is flat")
-        place, back = placed.matrix[:3, 3], right_up_back[:, 2]
-        table = {
-            "position": place,
-            "look_at": place - back / np.linalg.norm(back),
-            "up": right_up_back[:, 1] / np.linalg.norm(right_up_back[:, 1]),
-            "fov": math.degrees(fov),
-        }
-        return table, aspect
-    return None
-
-
-def left_out(camera: object, suns: int, document: Document) -> tuple[str, ...]:
-    """Return in words which cameras and lights are left out."""
-    found = ["cameras without perspective"] if not camera and document.items("cameras") else []
-    return (*found, *(["directional lights but the first"] if suns > 1 else []))
 
 
 def lights_of(document: Document, size: float) -> dict[str, Any]:
