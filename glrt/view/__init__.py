@@ -17,7 +17,9 @@ Modules, each importing only what stands above it:
 - files: open and saved files
 - recovery: unsaved edits kept for the next start
 - camera_moves: the camera moved by mouse and keys
+- selection: the selected object, and edits of objects
 - app: state shared by the parts of the window
+- outliner: a list of what the scene holds
 - panels: the panels
 - palette: a box that finds controls and commands
 - window: main loop and shutdown

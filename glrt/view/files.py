@@ -154,9 +154,8 @@ class Files:
             self.messages.complain(save_recent(recent, self.recent_file))
 
     def _take(self, scene: Scene, settings: RenderSettings) -> None:
-        self.session.opened = State(scene, settings_for(settings, crop=None, denoise="none"))
         self.session.problem = ""
-        self.session.edit(scene, **dict(self.session.opened.settings))
+        self.session.open(State(scene, settings_for(settings, crop=None, denoise="none")))
         self.show(scene)
 
     def follow(self, now: float) -> None:

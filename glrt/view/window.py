@@ -188,6 +188,7 @@ class Window:
         self._began = now
         app.pace.frames_per_second = app.preferences.frame_rate or self._rate
         draw_keys(app)
+        app.has_list_keys = False  # the list takes them again, if it is drawn
         for part in self.params.docking_params.dockable_windows[:2]:
             part.is_visible = not app.is_picture_alone
         self._shares.keep(PARTS)

@@ -7,5 +7,6 @@ Modules, each importing only what stands above it:
 - new_objects: new objects and their placement
 - edited_state: the value that undo restores
 - state_differences: differences of two states, in words
+- locks: objects that no edit changes
 - editing: current and earlier states
 """

@@ -15,6 +15,7 @@ from glrt.scene.warnings import cautions
 from glrt.settings import Cost, Settings
 from glrt.view.app import App
 from glrt.view.controls import Control, controls_of, replaced, switch
+from glrt.view.outliner.listing import SECTION, draw_outliner
 from glrt.view.panels.background import draw_background
 from glrt.view.panels.bar import bar_end, below_bar
 from glrt.view.panels.compare import draw_compare, draw_view
@@ -74,6 +75,7 @@ def _rows(app: App) -> None:
             imgui.set_next_item_open(True)
         is_shown = imgui.collapsing_header(title, flags)
         ANCHOR.note()
+        FINDER.mark("")
         top = imgui.get_item_rect_min().y
         is_new = is_shown and imgui.is_item_toggled_open()
         if is_shown:
@@ -207,6 +209,7 @@ SECTIONS = (
     ("Inspect", draw_inspector, 0),
     ("Paths of a pixel", draw_pixel_paths, 0),
     ("Camera", _camera, _OPEN),
+    (SECTION, draw_outliner, _OPEN),
     ("Object", draw_object, _OPEN),
     ("Compare", draw_compare, _OPEN),
     ("Background", draw_background, 0),

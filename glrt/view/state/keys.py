@@ -8,7 +8,7 @@ Move = Literal["forward", "back", "left", "right", "up", "down"]
 Action = (
     Move
     | Literal["home", "frame", "pause", "undo", "redo"]
-    | Literal["fit", "one_to_one", "inspect", "paths", "panel", "keys", "palette"]
+    | Literal["fit", "one_to_one", "inspect", "paths", "panel", "keys", "palette", "find_object"]
     | Literal["brighter", "darker", "picture_alone"]
     | Literal["duplicate", "delete", "open", "save_scene", "save_scene_as", "save", "quit"]
 )
@@ -34,6 +34,7 @@ DEFAULTS: Bindings = {
     "panel": ("f6",),
     "keys": ("f1",),
     "palette": ("ctrl+k",),
+    "find_object": ("ctrl+f",),
     "undo": ("ctrl+z",),
     "redo": ("ctrl+y", "ctrl+shift+z"),
     "duplicate": ("ctrl+d",),
@@ -64,6 +65,7 @@ MEANING: dict[Action, str] = {
     "panel": "move in the panel by keys, and back",
     "keys": "show these keys",
     "palette": "find a control or a command",
+    "find_object": "find an object in the list",
     "undo": "undo",
     "redo": "redo",
     "duplicate": "duplicate the selection",

@@ -2,6 +2,7 @@
 
 Modules, each importing only what stands above it:
 
+- tips: tooltips
 - slider_text: text of a slider
 - steady_widget: keeps the last used widget in place
 - cost_badges: badges that show the cost of an edit

@@ -15,6 +15,7 @@ from glrt.view.widgets.finder import FINDER
 from glrt.view.widgets.reset import default_text, reset_or
 from glrt.view.widgets.slider_text import Slider, share_of, text_next_to_grip
 from glrt.view.widgets.steady_widget import ANCHOR
+from glrt.view.widgets.tips import explain
 
 Drawn = TypeVar("Drawn")
 
@@ -22,7 +23,6 @@ _MOST_DIGITS = 20  # of an integer: more are beyond any limit, and Python reads 
 LEAST = 4.0  # em, the height of a letter: least width of a widget with its label next to it
 WORDS = 7.0  # em: the same for one that shows a word or a name
 _MOST_ROWS = 14  # of a list without scrolling
-_TIP = 28.0  # em: width of a tooltip
 _TOLD = 8.0  # em: from the left edge of a list to the explanations of its words
 _NO_TOOLTIP = imgui.ColorEditFlags_.no_tooltip.value
 _LOGARITHMIC = imgui.SliderFlags_.logarithmic.value
@@ -129,11 +129,7 @@ def tip(text: str, widget: int = 0) -> None:
     `widget`: see `Anchor.note`.
     """
     ANCHOR.note(widget)
-    if not imgui.is_mouse_down(0) and imgui.begin_item_tooltip():
-        imgui.push_text_wrap_pos(hello_imgui.em_size(_TIP))
-        imgui.text_unformatted(text)
-        imgui.pop_text_wrap_pos()
-        imgui.end_tooltip()
+    explain(text)
 
 
 def tooltip(control: Control, label: str) -> None:
