@@ -4,6 +4,7 @@ Modules, each importing only what stands above it:
 
 - controls: range, unit and cost of a control
 - opengl: OpenGL context of the window
+- native: title, dropped files and full screen of the window
 - style: theme and scale
 - file_watch: files changed by other programs
 - edits: edits of a scene and its settings, with undo

@@ -51,6 +51,7 @@ class App(Selection):
     pair: Pair = field(init=False)
     asked: Question | None = None  # the question on the screen
     leave: Callable[[], object] = nothing  # closes the window
+    fill_screen: Callable[[], object] = nothing  # enters the full screen, or leaves it
     rectangle: Rectangle = (0.0, 0.0, 1.0, 1.0)  # of the picture on the screen, in pixels
     zoom: Zoom = FIT
     inspects: bool = False  # whether the values of the pixel under the mouse are shown

@@ -116,6 +116,7 @@ SLOW = (  # half a second each, or more
     "points_are_reused_as_the_panel_says",
     "the_question_on_edits_lies_in_the_picture_and_is_answered_once",
     "arrow_keys_choose_a_row_and_a_click_elsewhere_closes_the_box",
+    "the_screen_is_filled_and_nothing_is_lost_on_the_way_back",
     "a_row_selects_its_object_and_a_click_in_the_picture_its_row",
     "groups_fold_and_the_camera_leads_to_its_values",
     "the_eye_hides_an_object_and_undo_shows_it",

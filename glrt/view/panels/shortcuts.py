@@ -32,6 +32,7 @@ COMMANDS: dict[Action, Callable[[App], object]] = {  # command of each action
     "brighter": lambda app: app.expose(_STOP),
     "darker": lambda app: app.expose(-_STOP),
     "picture_alone": lambda app: app.toggle_panels(),
+    "full_screen": lambda app: app.fill_screen(),
     "panel": lambda app: navigate(app, not app.navigates),
     "undo": lambda app: app.undo(),
     "redo": lambda app: app.redo(),

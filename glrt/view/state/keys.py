@@ -9,7 +9,7 @@ Action = (
     Move
     | Literal["home", "frame", "pause", "undo", "redo"]
     | Literal["fit", "one_to_one", "inspect", "paths", "panel", "keys", "palette", "find_object"]
-    | Literal["brighter", "darker", "picture_alone"]
+    | Literal["brighter", "darker", "picture_alone", "full_screen"]
     | Literal["duplicate", "delete", "open", "save_scene", "save_scene_as", "save", "quit"]
 )
 Bindings = dict[Action, tuple[str, ...]]
@@ -31,6 +31,7 @@ DEFAULTS: Bindings = {
     "brighter": ("right_bracket",),
     "darker": ("left_bracket",),
     "picture_alone": ("n",),
+    "full_screen": ("f11",),
     "panel": ("f6",),
     "keys": ("f1",),
     "palette": ("ctrl+k",),
@@ -62,6 +63,7 @@ MEANING: dict[Action, str] = {
     "brighter": "expose half a stop more",
     "darker": "expose half a stop less",
     "picture_alone": "hide the panels, and show them",
+    "full_screen": "fill the screen, and come back",
     "panel": "move in the panel by keys, and back",
     "keys": "show these keys",
     "palette": "find a control or a command",
