@@ -73,7 +73,8 @@ class Outliner:
             imgui.set_keyboard_focus_here()
         imgui.set_next_item_width(-1.0)
         words = imgui.input_text_with_hint("##filter", _HINT, self.words)
-        self._scrolls |= words[0]
+        if words[0]:
+            self._place, self._scrolls = -1, True
         self.words = words[1]
         FINDER.mark("filter")
         is_typing = bool(imgui.is_item_active())

@@ -14,7 +14,7 @@ from glrt.view import file_dialogs
 from glrt.view.app import App
 from glrt.view.controls import controls_of, replaced
 from glrt.view.edits.new_objects import ADDED
-from glrt.view.edits.scene_edits import with_object, with_own_group
+from glrt.view.edits.scene_edits import opened_shape, with_object, with_own_group
 from glrt.view.outliner.listing import OUTLINER
 from glrt.view.panels.materials import draw_material
 from glrt.view.panels.media import draw_medium
@@ -150,7 +150,8 @@ def _lamps_of(scene: Scene) -> Counter[str]:
 def _shape(app: App, index: int, shape: Shape) -> None:
     values = dict(shape)
     controls = tuple(it for it in controls_of(type(shape)) if values[it.name] is not None)
-    changes = edited_fields(controls, values, f"shape {index}")
+    opened = opened_shape(app.session.opened.scene.objects, app.session.scene.objects, index)
+    changes = edited_fields(controls, values, f"shape {index}", opened)
     if changes:
         app.edit_scene(f"object {index} {list(changes)}", partial(_reshaped, index, changes))
 
