@@ -8,6 +8,8 @@ from imgui_bundle import imgui
 
 from glrt.scene.materials.light import Light
 from glrt.scene.shapes.sphere import Sphere
+from glrt.view.panels import viewport
+from glrt.view.panels.viewport import is_dragging as dragging
 from tests.window.gestures import ball, click_twice, press
 from tests.window.hand import Hand, check
 
@@ -70,6 +72,37 @@ def a_drag_on_a_label_changes_a_value_in_one_step(hand: Hand) -> None:
         assert value() == changed, "the mouse lets go"
         press(hand, imgui.Key.z, CTRL)
         assert value() == before, reference
+    hand.window.app.selected = None
+
+
+@check
+def the_outline_fades_while_a_value_is_dragged_not_while_words_are_typed(hand: Hand) -> None:
+    seen: list[bool] = []
+    hand.window.app.selected = ball(hand)[0]
+
+    def observed() -> bool:
+        seen.append(dragging())
+        return seen[-1]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(viewport, "is_dragging", observed)
+        press(hand, imgui.Key.f, CTRL)
+        hand.ctx.yield_(6)
+        assert imgui.get_io().want_text_input
+        seen.clear()
+        hand.ctx.yield_(3)
+        assert seen
+        assert not any(seen)
+        press(hand, imgui.Key.escape)
+        x, y = to_label(hand, "fov")
+        seen.clear()
+        hand.ctx.mouse_down(0)
+        hand.ctx.mouse_move_to_pos((x + 30, y))
+        hand.ctx.yield_(2)
+        assert seen[-1], "of a label"
+        hand.ctx.mouse_up(0)
+        hand.ctx.yield_(2)
+        assert not seen[-1]
     hand.window.app.selected = None
 
 

@@ -63,7 +63,7 @@ MEANING: dict[Action, str] = {
     "brighter": "expose half a stop more",
     "darker": "expose half a stop less",
     "picture_alone": "hide the panels, and show them",
-    "full_screen": "fill the screen, and come back",
+    "full_screen": "show the window in full screen, and back",
     "panel": "move in the panel by keys, and back",
     "keys": "show these keys",
     "palette": "find a control or a command",

@@ -72,6 +72,11 @@ class Scrub:
         moved = after_drag(control, self._value, self._pixels)
         return moved if self._has_moved and moved != value else None
 
+    @property
+    def is_under_way(self) -> bool:
+        """Whether a label is dragged."""
+        return self._widget is not None and bool(imgui.is_mouse_down(0))
+
     def stop(self) -> None:
         """End the drag."""
         self._widget = None
