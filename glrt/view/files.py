@@ -9,7 +9,6 @@ from imgui_bundle import imgui
 
 from glrt.core.errors import GlrtError
 from glrt.core.files import unused, write_text
-from glrt.core.memo import kept_for_the_same
 from glrt.core.text import escaped
 from glrt.image.recipe import Recipe
 from glrt.image.sources import load, load_recipe, scene_file_of
@@ -18,9 +17,10 @@ from glrt.rendering.paths.values import PixelPaths
 from glrt.scene.scene import Scene
 from glrt.scene.scenefile.catalog import MODELS
 from glrt.scene.scenefile.toml_writer import scene_with, write_scene
-from glrt.settings import RenderSettings, Settings, settings_for
+from glrt.settings import RenderSettings, settings_for
 from glrt.view.controls import replaced
 from glrt.view.edits.edited_state import State
+from glrt.view.edits.unsaved import is_edited, is_other
 from glrt.view.file_dialogs import PICTURE, SCENE, SCENES, Dialogs
 from glrt.view.file_watch import Watch, watch_for
 from glrt.view.messages import Messages
@@ -29,7 +29,6 @@ from glrt.view.state.session import Session
 
 Then = Callable[[], object]
 PICTURE_NAME = "picture.png"
-EDITED = ("objects", "materials", "media", "medium", "lights", "background", "sun")  # to be saved
 
 
 def nothing() -> None:
@@ -65,7 +64,12 @@ class Files:
     @property
     def is_changed(self) -> bool:
         """Whether the scene has unsaved edits; changed camera or settings do not count."""
-        return self.is_lost or _differs(self.saved, self.session.scene)
+        return self.is_lost or is_edited(self.saved, self.session.scene)
+
+    @property
+    def is_other(self) -> bool:
+        """Whether a save would change the file: camera and settings count, too."""
+        return self.is_lost or is_other(self.written, self.session.scene, self.session.settings)
 
     @property
     def is_lost(self) -> bool:
@@ -76,8 +80,7 @@ class Files:
     def title(self) -> str:
         """Title of the window: what is open, with a star if the scene differs from its file."""
         name = Path(self.source).name if self.source else "recipe"
-        is_other = _is_other(self.written, self.session.scene, self.session.settings)
-        return f"{escaped(name)}{' *' if is_other or self.is_lost else ''} - glrt"
+        return f"{escaped(name)}{' *' if self.is_other else ''} - glrt"
 
     def open(self, source: str) -> None:
         """Open another scene, or the scene, view and settings of a picture."""
@@ -173,8 +176,8 @@ class Files:
     def reload(self) -> None:
         """Read the scene file again; the camera and the settings stay."""
         with self.messages.reporting():
-            found, is_edited = load(self.source), _differs(self.saved, self.session.scene)
-            lost = "; undo brings your edits back" * is_edited
+            found, had_edits = load(self.source), is_edited(self.saved, self.session.scene)
+            lost = "; undo brings your edits back" * had_edits
             self.session.problem = ""
             self.session.edit(replaced(found, camera=self.session.scene.camera))
             self.saved, self.written = found, scene_with(found, self.session.settings)
@@ -284,16 +287,3 @@ def _where(file: Path) -> str:
     """Return the name of a file and its folder in words."""
     whole = file.absolute()
     return f"{whole.name} in {whole.parent}"
-
-
-@kept_for_the_same
-def _is_other(written: Scene, scene: Scene, settings: Settings) -> bool:
-    whole = scene_with(scene, settings)
-    return _differs(written, scene) or any(
-        getattr(written, part) != getattr(whole, part) for part in ("camera", "render")
-    )
-
-
-@kept_for_the_same
-def _differs(saved: Scene, scene: Scene) -> bool:
-    return any(getattr(saved, part) != getattr(scene, part) for part in EDITED)

@@ -7,6 +7,7 @@ Modules, each importing only what stands above it:
 - new_objects: new objects and their placement
 - edited_state: the value that undo restores
 - state_differences: differences of two states, in words
+- unsaved: what a save would change
 - locks: objects that no edit changes
 - editing: current and earlier states
 """
