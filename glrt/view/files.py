@@ -20,6 +20,7 @@ from glrt.scene.scenefile.toml_writer import scene_with, write_scene
 from glrt.settings import RenderSettings, settings_for
 from glrt.view.controls import replaced
 from glrt.view.edits.edited_state import State
+from glrt.view.edits.sky_images import is_sky, with_sky_image
 from glrt.view.edits.unsaved import is_edited, is_other
 from glrt.view.file_dialogs import PICTURE, SCENE, SCENES, Dialogs
 from glrt.view.file_watch import Watch, watch_for
@@ -91,8 +92,11 @@ class Files:
             self.messages.report(f"Opened {source}")
 
     def ask_open(self, source: str) -> None:
-        """Open a file; ask first if that would lose edits."""
-        self._unless_lost(f"Open {Path(source).name}?", lambda: self.open(source))
+        """Open a file; ask first if that would lose edits. An image of radiance is a background."""
+        with self.messages.reporting():
+            if is_sky(Path(source)):
+                return self.use_as_background(source)
+        return self._unless_lost(f"Open {Path(source).name}?", lambda: self.open(source))
 
     def drop(self, path: str) -> None:
         """Open a file dropped on the window; of a model, ask whether to add it to the scene."""
@@ -105,6 +109,13 @@ class Files:
             open=lambda: self.ask_open(path),
         )
         return None
+
+    def use_as_background(self, path: str) -> None:
+        """Make an image of all directions the background of the scene."""
+        with self.messages.reporting():
+            self.session.edit(with_sky_image(self.session.scene, Path(path)))
+            name = escaped(Path(path).name)
+            self.messages.report(f"{name} is the background; undo brings the former one back")
 
     def add_from(self, path: str) -> None:
         """Add the meshes of a model to the scene."""

@@ -1,12 +1,16 @@
 """Edits that are kept although a close does not ask for them, or no file holds the scene."""
 
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from glrt.image.sources import load
 from glrt.scene.scene import Scene
+from glrt.view.edits.sky_images import with_sky_image
+from tests.support.image_bytes import flat_hdr
 from tests.support.kept_windows import Opened, let_all_die, next_to
 
 
@@ -15,6 +19,22 @@ def opened(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Opened]:
     monkeypatch.chdir(tmp_path)
     yield Opened(tmp_path)
     let_all_die()
+
+
+def test_an_image_of_the_sky_comes_back(opened: Opened) -> None:
+    elsewhere = Path("skies")
+    elsewhere.mkdir()
+    (elsewhere / "dusk.hdr").write_bytes(flat_hdr(np.full((2, 4, 4), 128, np.uint8)))
+    opened.edit(partial(with_sky_image, path=elsewhere / "dusk.hdr"))
+    image = opened.session.scene.background.image
+    assert image
+    opened.die()
+    later = next_to(opened)
+    later.recovery.restore()
+    assert later.session.problem == ""
+    found = later.session.scene.background.image
+    assert found == image
+    assert found.pixels is not None
 
 
 def moved(scene: Scene) -> Scene:
@@ -31,6 +51,7 @@ def test_camera_and_settings_alone_are_restored_too(opened: Opened, makes: str) 
     assert not opened.files.is_changed, "a close does not ask"
     opened.die()
     later = next_to(opened)
+    assert len(later.recovery.offers) == 1
     later.recovery.restore()
     assert later.session.scene.camera == opened.session.scene.camera
     assert later.session.settings == opened.session.settings

@@ -117,6 +117,7 @@ SLOW = (  # half a second each, or more
     "the_question_on_edits_lies_in_the_picture_and_is_answered_once",
     "arrow_keys_choose_a_row_and_a_click_elsewhere_closes_the_box",
     "a_drag_on_a_label_changes_a_value_in_one_step",
+    "an_image_of_the_sky_dropped_by_another_program_lights_the_scene",
     "the_outline_fades_while_a_value_is_dragged_not_while_words_are_typed",
     "a_drag_on_the_label_of_a_colour_keeps_its_hue",
     "a_double_click_goes_back_to_the_value_of_the_scene",

@@ -6,8 +6,11 @@ from pathlib import Path
 from typing import Any
 
 import glfw
+import numpy as np
 
 from glrt.scene.scenefile.toml import read_scene
+from glrt.view.edits.scene_edits import without_object
+from tests.support.image_bytes import flat_hdr
 from tests.window.gestures import answer, reopen
 from tests.window.hand import Hand, check
 
@@ -32,6 +35,27 @@ def a_scene_dropped_by_another_program_is_opened(hand: Hand) -> None:
     hand.settle()
     assert hand.session.scene.objects == read_scene(file).objects
     reopen(hand)
+
+
+@check
+def an_image_of_the_sky_dropped_by_another_program_lights_the_scene(hand: Hand) -> None:
+    file, before = Path.cwd() / "dusk.hdr", hand.pixels()
+    file.write_bytes(flat_hdr(np.full((2, 4, 4), 130, np.uint8)))
+    hand.there(lambda: hand.session.edit(without_object(hand.session.scene, 2)))
+    hand.settle()
+    scene = hand.session.scene
+    assert dropped(hand, file) == 0
+    hand.until(lambda: hand.session.scene is not scene)
+    hand.settle()
+    image = hand.session.scene.background.image
+    assert image
+    assert image.file == file.name
+    assert not hand.session.problem
+    assert (hand.pixels() != before).mean() > 0.05
+    assert hand.window.app.undoes == "Undo: background"
+    hand.there(hand.session.undo)
+    assert hand.session.scene is scene
+    file.unlink()
 
 
 @check

@@ -4,6 +4,7 @@ Modules, each importing only what stands above it:
 
 - scene_edits: objects and materials added, copied, renamed, removed
 - media_edits: media added, chosen and changed
+- sky_images: images that become the background
 - new_objects: new objects and their placement
 - edited_state: the value that undo restores
 - state_differences: differences of two states, in words
