@@ -159,7 +159,7 @@ def _tables(app: App) -> None:
     if wide < room:
         imgui.same_line(0.0, hello_imgui.em_size(_APART))
     imgui.begin_group()
-    imgui.text_disabled("in the picture")
+    imgui.text_disabled("mouse")
     _table("mouse", mouse)
     imgui.text_disabled("commands")
     _table("commands", commands)
