@@ -4,6 +4,7 @@ Modules, each importing only what stands above it:
 
 - controls: range, unit and cost of a control
 - opengl: OpenGL context of the window
+- native: title, dropped files and full screen of the window
 - style: theme and scale
 - file_watch: files changed by other programs
 - edits: edits of a scene and its settings, with undo
@@ -17,7 +18,9 @@ Modules, each importing only what stands above it:
 - files: open and saved files
 - recovery: unsaved edits kept for the next start
 - camera_moves: the camera moved by mouse and keys
+- selection: the selected object, and edits of objects
 - app: state shared by the parts of the window
+- outliner: a list of what the scene holds
 - panels: the panels
 - palette: a box that finds controls and commands
 - window: main loop and shutdown

@@ -1,10 +1,8 @@
 """The state that the parts of the window share, and the commands of buttons and keys."""
 
-import math
 import time
 from collections.abc import Callable
 from dataclasses import InitVar, dataclass, field
-from functools import partial
 from pathlib import Path
 
 from glrt.core.errors import GlrtError
@@ -13,16 +11,14 @@ from glrt.image.sources import STRICT, FileRules
 from glrt.process.load import LoadMeter
 from glrt.rendering.history.temporal import Way
 from glrt.scene.scene import Scene
-from glrt.scene.shapes.kinds import Shape
 from glrt.scene.values import Vector
-from glrt.view.camera_moves import CameraMoves
 from glrt.view.compared_picture import Pair
-from glrt.view.edits.new_objects import two_digits, with_model, with_new_near
-from glrt.view.edits.scene_edits import found_again, with_duplicate, without_object
+from glrt.view.edits.scene_edits import found_again
 from glrt.view.edits.state_differences import change_text
 from glrt.view.file_watch import Watch
 from glrt.view.files import Files, nothing
 from glrt.view.messages import Messages, Question
+from glrt.view.selection import Selection
 from glrt.view.state.error_history import Progress
 from glrt.view.state.frame_budget import FrameBudget
 from glrt.view.state.keys import Action
@@ -30,20 +26,16 @@ from glrt.view.state.path_explorer import PathExplorer
 from glrt.view.state.preferences import Preferences, save_preferences
 from glrt.view.state.session import Session
 from glrt.view.state.zoom import FIT, Rectangle, Zoom
-from glrt.view.viewport import orbit
 from glrt.view.viewport.black import Blackness
-from glrt.view.viewport.pick import Picked, pick
 from glrt.view.viewport.picture import Picture
 from glrt.view.viewport.picture_view import PictureView
 from glrt.view.viewport.silhouette import Silhouette
-from glrt.view.viewport.transform import clear_of
 
 MOST_STOPS = 8.0  # exposure values that keys reach, as the slider does
-SIZE = 0.07  # half the size of a new object, in distances from the camera to the pivot
 
 
 @dataclass
-class App(CameraMoves):
+class App(Selection):
     """State of the window: a session, its picture, files, messages and preferences."""
 
     session: Session
@@ -62,6 +54,7 @@ class App(CameraMoves):
     pair: Pair = field(init=False)
     asked: Question | None = None  # the question on the screen
     leave: Callable[[], object] = nothing  # closes the window
+    fill_screen: Callable[[], object] = nothing  # enters the full screen, or leaves it
     rectangle: Rectangle = (0.0, 0.0, 1.0, 1.0)  # of the picture on the screen, in pixels
     zoom: Zoom = FIT
     inspects: bool = False  # whether the values of the pixel under the mouse are shown
@@ -82,6 +75,7 @@ class App(CameraMoves):
     awaited: tuple[Action, int] | None = None  # action and index of the key that is being chosen
     is_deaf: bool = False  # whether keys are ignored until they are released
     navigates: bool = False  # whether keys move in the panel
+    has_list_keys: bool = False  # whether arrow keys move in the list of what the scene holds
     was_busy: bool = False  # whether a widget had the keys a frame ago
 
     def __post_init__(self, source: str, rules: FileRules) -> None:
@@ -94,11 +88,6 @@ class App(CameraMoves):
         self.files = Files(
             self.session, self.messages, source, recent, self.show_scene, self.add_model, rules
         )
-
-    def edit_scene(self, gesture: str, make: Callable[[Scene], Scene]) -> None:
-        """Replace the scene by the result of `make`; an invalid scene is reported, not raised."""
-        with self.messages.reporting():
-            self.session.edit(make(self.session.scene), gesture)
 
     def prefer(self, preferences: Preferences) -> None:
         """Replace the preferences; `keep_preferences` writes them."""
@@ -126,43 +115,6 @@ class App(CameraMoves):
         with self.messages.reporting(), files_reread():
             self.picture.reload_shaders()
             self.session.reload_shaders()
-
-    @property
-    def selected_shape(self) -> Shape | None:
-        """The selected object; None if nothing is selected or the object no longer exists."""
-        objects = self.session.scene.objects
-        index = self.selected
-        return objects[index] if index is not None and index < len(objects) else None
-
-    def select(self, index: int | None) -> None:
-        """Select an object by its number, or nothing; the panel scrolls to the object."""
-        self.selected, self.is_to_be_seen = index, index is not None
-
-    def add(self, kind: str) -> None:
-        """Add an object of a kind at the pivot or on what is there, and select it."""
-        self._add(lambda scene: with_new_near(scene, kind, self.pivot, SIZE * self.reach))
-
-    def add_model(self, path: Path) -> None:
-        """Add the meshes of a model at the pivot, and select the first."""
-        self._add(lambda scene: with_model(scene, path, self.pivot, 2 * SIZE * self.reach))
-
-    def duplicate(self) -> None:
-        """Add a copy of the selected object above or below it, and select the copy."""
-        if (shape := self.selected_shape) and self.selected is not None:
-            copy = clear_of(shape, self.pivot, two_digits(SIZE * self.reach))
-            self._add(partial(with_duplicate, index=self.selected, moved=copy))
-
-    def _add(self, make: Callable[[Scene], Scene]) -> None:
-        count = len(self.session.scene.objects)
-        self.edit_scene("", make)
-        if len(self.session.scene.objects) > count:
-            self.select(count)
-
-    def delete(self) -> None:
-        """Delete the selected object."""
-        if self.selected_shape and self.selected is not None:
-            self.edit_scene("", partial(without_object, index=self.selected))
-            self.selected = None
 
     def zoom_to(self, scale: float | None) -> None:
         """Zoom to a number of screen pixels per picture pixel; None shows the whole picture."""
@@ -244,19 +196,6 @@ class App(CameraMoves):
         step()
         self.messages.report(told or "There is nothing more to undo or redo")
         self.selected = found_again(before, self.session.scene.objects, self.selected)
-
-    def pick(self, x: float, y: float) -> Picked | None:
-        """Return the object under a point of the picture, (0, 0) upper left to (1, 1), or None."""
-        settings = self.session.settings
-        return pick(self.session.scene, settings.width / settings.height, x, y)
-
-    def frame_selected(self) -> None:
-        """Look at the selected object so that it fills the frame, and make it the pivot."""
-        if shape := self.selected_shape:
-            with self.messages.reporting():
-                reach = shape.reach if math.isfinite(shape.reach) else 1.0
-                self.place(orbit.framed(self.camera, shape.middle, reach))
-                self.pivot = shape.middle
 
     @property
     def picture(self) -> Picture:

@@ -40,6 +40,7 @@ class Control:
     slider: tuple[float, float] | None = None
     choices: tuple[Any, ...] = ()
     default: Any = None  # a double click sets it; None if there is none
+    is_of_scene: bool = False  # whether `default` is the value of the scene as it was opened
     told: tuple[str, ...] = ()  # explanation of each choice; empty if the words suffice
     reach: tuple[float, Cost] | None = None  # largest value of this cost, and the cost beyond it
 
@@ -55,6 +56,12 @@ class Control:
     def costing(self, cost: Cost, reach: tuple[float, Cost] | None = None) -> "Control":
         """Return the same control with the cost that an edit has at present."""
         return replace(self, cost=cost, reach=reach)
+
+    def back_to(self, value: Any) -> "Control":
+        """Return the same control with the value of the scene as its default; None keeps it."""
+        if value is None or self.kind == "switch":
+            return self
+        return replace(self, default=value, is_of_scene=True)
 
     @property
     def costs(self) -> tuple[tuple[Cost, str], ...]:

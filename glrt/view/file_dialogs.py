@@ -121,8 +121,8 @@ class FileBrowser:
 
 PROGRAMS = ("zenity", "kdialog", "matedialog", "qarma")  # programs that draw dialogs on Linux
 SCENES = [
-    "Scenes, models and rendered pictures",
-    "*.toml *.glb *.gltf *.obj *.ply *.stl *.png *.exr",
+    "Scenes, models, pictures and images of the sky",
+    "*.toml *.glb *.gltf *.obj *.ply *.stl *.png *.exr *.hdr",
 ]
 MODELS = ["Models", "*.glb *.gltf *.obj *.ply *.stl"]
 SCENE = ["Scene", "*.toml"]

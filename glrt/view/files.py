@@ -20,7 +20,8 @@ from glrt.scene.scenefile.toml_writer import scene_with, write_scene
 from glrt.settings import RenderSettings, settings_for
 from glrt.view.edits.edited_state import State
 from glrt.view.edits.file_camera import seen_as_before, to_be_saved
-from glrt.view.edits.saved_state import differs, is_other
+from glrt.view.edits.sky_images import is_sky, with_sky_image
+from glrt.view.edits.unsaved import is_edited, is_other
 from glrt.view.file_dialogs import PICTURE, SCENE, SCENES, Dialogs
 from glrt.view.file_watch import Watch, watch_for
 from glrt.view.messages import Messages
@@ -29,10 +30,6 @@ from glrt.view.state.session import Session
 
 Then = Callable[[], object]
 PICTURE_NAME = "picture.png"
-
-
-def nothing() -> None:
-    """Do nothing."""
 
 
 @dataclass
@@ -65,7 +62,12 @@ class Files:
     @property
     def is_changed(self) -> bool:
         """Whether the scene has unsaved edits; changed camera or settings do not count."""
-        return self.is_lost or differs(self.saved, self.session.scene)
+        return self.is_lost or is_edited(self.saved, self.session.scene)
+
+    @property
+    def is_other(self) -> bool:
+        """Whether a save would change the file: camera and settings count, too."""
+        return self.is_lost or is_other(self.written, self.session.scene, self.session.settings)
 
     @property
     def is_lost(self) -> bool:
@@ -76,8 +78,7 @@ class Files:
     def title(self) -> str:
         """Title of the window: what is open, with a star if the scene differs from its file."""
         name = Path(self.source).name if self.source else "recipe"
-        star = is_other(self.written, self.session.scene, self.session.settings)
-        return f"{escaped(name)}{' *' if star or self.is_lost else ''} - glrt"
+        return f"{escaped(name)}{' *' if self.is_other else ''} - glrt"
 
     def open(self, source: str) -> None:
         """Open another scene, or the scene, view and settings of a picture."""
@@ -89,8 +90,11 @@ class Files:
             self.messages.report(f"Opened {source}")
 
     def ask_open(self, source: str) -> None:
-        """Open a file; ask first if that would lose edits."""
-        self._unless_lost(f"Open {Path(source).name}?", lambda: self.open(source))
+        """Open a file; ask first if that would lose edits. An image of radiance is a background."""
+        with self.messages.reporting():
+            if is_sky(Path(source)):
+                return self.use_as_background(source)
+        return self._unless_lost(f"Open {Path(source).name}?", lambda: self.open(source))
 
     def drop(self, path: str) -> None:
         """Open a file dropped on the window; of a model, ask whether to add it to the scene."""
@@ -103,6 +107,13 @@ class Files:
             open=lambda: self.ask_open(path),
         )
         return None
+
+    def use_as_background(self, path: str) -> None:
+        """Make an image of all directions the background of the scene."""
+        with self.messages.reporting():
+            self.session.edit(with_sky_image(self.session.scene, Path(path)))
+            name = escaped(Path(path).name)
+            self.messages.report(f"{name} is the background; undo brings the former one back")
 
     def add_from(self, path: str) -> None:
         """Add the meshes of a model to the scene."""
@@ -155,9 +166,8 @@ class Files:
             self.messages.complain(save_recent(recent, self.recent_file))
 
     def _take(self, scene: Scene, settings: RenderSettings) -> None:
-        self.session.opened = State(scene, settings_for(settings, crop=None, denoise="none"))
         self.session.problem = ""
-        self.session.edit(scene, **dict(self.session.opened.settings))
+        self.session.open(State(scene, settings_for(settings, crop=None, denoise="none")))
         self.show(scene)
 
     def follow(self, now: float) -> None:
@@ -175,9 +185,9 @@ class Files:
     def reload(self) -> None:
         """Read the scene file again; the camera and the settings stay."""
         with self.messages.reporting():
-            is_edited = differs(self.saved, self.session.scene)
+            had_edits = is_edited(self.saved, self.session.scene)
             found, _ = load_recipe(self.source, self.rules._replace(variant=None))
-            lost = "; undo brings your edits back" * is_edited
+            lost = "; undo brings your edits back" * had_edits
             self.session.problem = ""
             self.session.edit(seen_as_before(found, self.session.scene.camera))
             self.saved, self.written = found, scene_with(found, self.session.settings)
@@ -203,7 +213,7 @@ class Files:
         self.messages.report(f"Saved {_where(file)}{lost}")
         return True
 
-    def save_again(self, then: Then = nothing) -> None:
+    def save_again(self, then: Then = lambda: None) -> None:
         """Save the scene to its own file, or ask for a name if it has none; then call `then`."""
         if self.watch:
             if self.save_scene(self.source):
@@ -211,7 +221,7 @@ class Files:
         else:
             self.browse_scene(then)
 
-    def browse_scene(self, then: Then = nothing) -> None:
+    def browse_scene(self, then: Then = lambda: None) -> None:
         """Show a dialog to choose where the scene is saved; then call `then`."""
 
         def use(path: str, is_agreed: bool) -> None:
@@ -219,7 +229,7 @@ class Files:
 
         self.dialogs.ask_save("Save the scene", self.scene_path, SCENE, ".toml", use)
 
-    def ask_save_scene(self, path: str, is_agreed: bool = False, then: Then = nothing) -> None:
+    def ask_save_scene(self, path: str, is_agreed: bool = False, then: Then = lambda: None) -> None:
         """Save the scene under a name; ask before a file other than its own is replaced."""
         is_own = bool(self.watch) and Path(path).absolute() == Path(self.source).absolute()
         self._unless_there(path, is_own or is_agreed, lambda: self.save_scene(path) and then())

@@ -2,11 +2,9 @@
 
 import time
 from collections.abc import Callable
-from typing import Any
 
 import moderngl
 from imgui_bundle import hello_imgui, imgui, immapp
-from imgui_bundle.glfw_utils import glfw_window_hello_imgui
 
 from glrt.core.errors import ContextError
 from glrt.gpu.context import Pipeline
@@ -23,6 +21,7 @@ from glrt.view.app import App
 from glrt.view.event_wait import EventWait
 from glrt.view.file_watch import Watch
 from glrt.view.messages import Messages
+from glrt.view.native import Native
 from glrt.view.opengl import INSTEAD, window_version, wrap_window
 from glrt.view.palette.box import Palette
 from glrt.view.panels.confirmations import draw_question
@@ -46,31 +45,6 @@ from glrt.view.style import WindowStyle
 from glrt.view.viewport.picture import Picture
 from glrt.view.viewport.picture_view import PictureView
 from glrt.view.widgets.finder import FINDER
-
-import glfw  # isort: skip  # the library of imgui_bundle, which must come first
-
-
-class Native:
-    """The open window of this process, for use on the window's thread."""
-
-    def __init__(self, drop: Callable[[str], object]) -> None:
-        """`drop` gets the path of a file dropped on the window; of several files, the first."""
-        self._window: Any = glfw_window_hello_imgui()
-        self._title = ""
-
-        def dropped(_window: Any, paths: Any) -> None:
-            if paths:
-                drop(paths[0])
-
-        listen: Any = glfw.set_drop_callback  # its annotations are those of the C function
-        listen(self._window, dropped)
-
-    def entitle(self, title: str) -> None:
-        """Set the title of the window."""
-        if title != self._title:
-            self._title = title
-            glfw.set_window_title(self._window, title)
-
 
 SIZE = (1240, 800)
 PANEL, FIGURES = 0.3, 0.22  # shares of the window's width, and of its height
@@ -184,6 +158,7 @@ class Window:
         self.app.messages.complain(problem)
         self.app.leave = self._leave
         self._native = Native(self.app.files.drop)
+        self.app.fill_screen = self._native.toggle_full_screen
         self.recovery = Recovery(self.app.files, recovery_folder())
         handle_lost_display(self.recovery.last_words)
 
@@ -197,6 +172,7 @@ class Window:
         self._began = now
         app.pace.frames_per_second = app.preferences.frame_rate or self._rate
         draw_keys(app)
+        app.has_list_keys = False  # the list takes them again, if it is drawn
         for part in self.params.docking_params.dockable_windows[:2]:
             part.is_visible = not app.is_picture_alone
         self._shares.keep(PARTS)
@@ -207,7 +183,7 @@ class Window:
         self._poll(now)
         self._told = self._reports(now)
         if self._interruption.signal:
-            self.params.app_shall_exit = True
+            self._leave()
 
     def _poll(self, now: float) -> None:
         """Handle what sends no event: changed files, dialogs, edits and preferences to be kept."""
@@ -248,11 +224,14 @@ class Window:
     def _may_close(self) -> bool:
         """Whether the window may close at once; otherwise ask about unsaved edits."""
         is_agreed = not self.app.files.is_changed
-        if not is_agreed:
+        if is_agreed:
+            self._native.leave_full_screen()
+        else:
             self.app.files.close(self.app.leave)
         return is_agreed
 
     def _leave(self) -> None:
+        self._native.leave_full_screen()  # its size is kept for the next start
         self.params.app_shall_exit = True
 
     def _close(self) -> None:

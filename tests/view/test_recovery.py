@@ -3,83 +3,28 @@
 from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from glrt.core.resources import folder
 from glrt.image.sources import load
-from glrt.scene.scene import Scene
 from glrt.scene.scenefile.toml import read_scene
 from glrt.scene.scenefile.toml_writer import scene_with
-from glrt.settings import settings_for
-from glrt.view.edits.edited_state import State
-from glrt.view.edits.editing import Editing
-from glrt.view.edits.new_objects import with_model, with_new_near
+from glrt.view.edits.new_objects import with_model
 from glrt.view.edits.scene_edits import without_object
-from glrt.view.files import Files
-from glrt.view.messages import Messages
 from glrt.view.recovery import keeper
 from glrt.view.recovery.headers import header_of
-from glrt.view.recovery.keeper import AGAIN, SOON, Recovery
-from tests.support.sessions import Clock
+from glrt.view.recovery.keeper import AGAIN
+from tests.support.kept_windows import Opened, files_of, let_all_die, next_to
 
 CUBE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
-
-WINDOWS: list["Opened"] = []  # of a test
-
-
-class Opened:
-    """The part of a window that keeps a scene and its files, on a clock that tests set."""
-
-    def __init__(self, place: Path, source: str = "cornell") -> None:
-        scene = load(source)
-        self.session = Editing(State(scene, settings_for(scene.render)))
-        session: Any = self.session
-        recent, self.shown = place / "recent.json", list[Scene]()
-        messages = Messages(session)
-        self.files = Files(session, messages, source, recent, self.shown.append, lambda _: None)
-        self.clock = Clock()
-        self.recovery = Recovery(self.files, place / "recovery", self.clock)
-        WINDOWS.append(self)
-
-    @property
-    def file(self) -> Path:
-        return self.recovery.file
-
-    def edit(self, make: Callable[[Scene], Scene] | None = None) -> None:
-        """Make an edit, by default an added ball, and let the window look."""
-        ball = partial(with_new_near, kind="sphere", pivot=(0.0, 0.0, 0.0), size=0.1)
-        self.session.edit((make or ball)(self.session.scene))
-        self.look()
-
-    def look(self, seconds: float = SOON) -> None:
-        self.clock.now += seconds
-        self.recovery.follow()
-
-    def die(self) -> None:
-        """End as a killed process does: the system opens its locks."""
-        claims = [offer.claim for offer in self.recovery.offers]
-        for claim in (*claims, self.recovery._claim):
-            if claim:
-                claim.release()
 
 
 @pytest.fixture
 def opened(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Opened]:
     monkeypatch.chdir(tmp_path)
     yield Opened(tmp_path)
-    while WINDOWS:
-        WINDOWS.pop().die()
-
-
-def next_to(opened: Opened, source: str = "cornell") -> Opened:
-    """Another window, started later."""
-    return Opened(opened.file.parents[1], source)
-
-
-def files_of(opened: Opened) -> list[str]:
-    return sorted(file.name for file in opened.file.parent.glob("*"))
+    let_all_die()
 
 
 def test_an_edit_is_written_as_a_save_writes_it(opened: Opened) -> None:
@@ -93,8 +38,6 @@ def test_an_edit_is_written_as_a_save_writes_it(opened: Opened) -> None:
 
 def test_without_edits_nothing_is_written(opened: Opened) -> None:
     opened.look()
-    camera = load("lamps").camera
-    opened.edit(lambda scene: scene.model_copy(update={"camera": camera}))
     assert files_of(opened) == []
 
 

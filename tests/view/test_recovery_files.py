@@ -6,10 +6,13 @@ from pathlib import Path
 
 import pytest
 
+from glrt.image.sources import load
+from glrt.view.recovery.claims import Claim
 from glrt.view.recovery.headers import Header, header_of, key_of, recovery_folder
-from glrt.view.recovery.offers import offers_for
+from glrt.view.recovery.offers import KEPT, lock_of, offers_for, prune
 
 NOON = datetime(2026, 3, 4, 12, 5).timestamp()
+ROOM = load("cornell")
 
 
 def test_a_scene_is_known_by_its_path_whatever_the_folder(
@@ -19,8 +22,47 @@ def test_a_scene_is_known_by_its_path_whatever_the_folder(
     Path("deep").mkdir()
     Path("mine.toml").touch()
     whole = str(tmp_path.resolve() / "mine.toml")
-    assert [key_of(name) for name in ("mine.toml", "deep/../mine.toml", whole)] == [whole] * 3
-    assert [key_of(name) for name in ("cornell", "-", "unknown")] == ["cornell", "", ""]
+    names = "mine.toml", "deep/../mine.toml", whole
+    assert [key_of(name, ROOM) for name in names] == [whole] * 3
+    assert [key_of(name, ROOM) for name in ("cornell", "", "unknown")] == ["cornell", "", ""]
+
+
+def test_a_scene_from_standard_input_is_known_by_its_content() -> None:
+    again, other = load("cornell"), load("lamps")
+    assert key_of("-", ROOM) == key_of("-", again) != key_of("-", other)
+
+
+OLD = NOON - KEPT - 1
+
+
+@pytest.mark.parametrize(
+    ("source", "saved", "is_kept"),
+    [
+        ("gone.toml", OLD, False),
+        ("gone.toml", OLD + 2, True),
+        ("there.toml", OLD, True),
+        ("nowhere/gone.toml", OLD, True),
+        ("cornell", OLD, True),
+        ("-", OLD, False),
+        ("-", OLD + 2, True),
+    ],
+)
+def test_old_edits_of_scenes_that_are_gone_are_removed(
+    tmp_path: Path, source: str, saved: float, is_kept: bool
+) -> None:
+    (tmp_path / "there.toml").touch()
+    (tmp_path / "kept").mkdir()
+    file = tmp_path / "kept" / "other.toml"
+    is_path = source.endswith(".toml")
+    key = str(tmp_path / source) if is_path else key_of(source, ROOM)
+    file.write_text(Header(key, saved).line())
+    claim = Claim(lock_of(file))
+    prune(file.parent, NOON)
+    assert file.exists(), "its window is open"
+    claim.release()
+    prune(file.parent, NOON)
+    assert file.exists() == is_kept
+    assert lock_of(file).exists() == is_kept
 
 
 @pytest.mark.parametrize(

@@ -116,6 +116,18 @@ SLOW = (  # half a second each, or more
     "points_are_reused_as_the_panel_says",
     "the_question_on_edits_lies_in_the_picture_and_is_answered_once",
     "arrow_keys_choose_a_row_and_a_click_elsewhere_closes_the_box",
+    "a_drag_on_a_label_changes_a_value_in_one_step",
+    "an_image_of_the_sky_dropped_by_another_program_lights_the_scene",
+    "the_outline_fades_while_a_value_is_dragged_not_while_words_are_typed",
+    "a_drag_on_the_label_of_a_colour_keeps_its_hue",
+    "a_double_click_goes_back_to_the_value_of_the_scene",
+    "the_screen_is_filled_and_nothing_is_lost_on_the_way_back",
+    "a_row_selects_its_object_and_a_click_in_the_picture_its_row",
+    "groups_fold_and_the_camera_leads_to_its_values",
+    "the_eye_hides_an_object_and_undo_shows_it",
+    "keys_walk_through_the_list_and_delete_from_it",
+    "words_filter_the_list_also_if_the_panels_were_hidden",
+    "a_frame_goes_through_the_rows_in_sight_alone",
 )
 
 

@@ -76,7 +76,7 @@ def test_a_window_ends_at_any_moment(display: str, tmp_path: Path, moment: str, 
         return assert_gone(picture)
     assert json.loads(preferences.read_text()) == {"theme": "light", "mode": "fly"}
     assert list(tmp_path.rglob(".glrt-*")) == []
-    assert len(kept_edits(tmp_path)) == (moment == "terminated_with_edits")
+    assert len(kept_edits(tmp_path)) == (moment in ("terminated_with_edits", "dragging"))
     if moment == "choosing":
         assert_gone(Path("/proc") / (tmp_path / "dialog.pid").read_text().strip())
     return None

@@ -126,7 +126,7 @@ def a_long_problem_leaves_room_for_the_rows(hand: Hand) -> None:
 def a_row_stays_where_it_is_though_there_is_nothing_to_scroll(hand: Hand) -> None:
     """A lamp becomes matte: the rows under Light go, and the panel is at its top."""
     app, ctx = hand.window.app, hand.ctx
-    closed = ("Paths", "Samples", "Display", "Camera")
+    closed = ("Paths", "Samples", "Display", "Camera", "Scene")
     number, shape = ball(hand)
     app.selected = number
     ctx.yield_(2)

@@ -10,7 +10,7 @@ from glrt.view.controls import Control
 from glrt.view.panels import background, lights, panel, sun
 from glrt.view.widgets import fields
 from tests.window.check_preferences import CHOICES
-from tests.window.gestures import move
+from tests.window.gestures import click_twice, move
 from tests.window.hand import Hand, check
 
 # Each control by its label in the panel: the control, and what to do to it.
@@ -168,7 +168,8 @@ def a_double_click_sets_the_default(hand: Hand) -> None:
         ctx.item_input_value(reference, value)
         hand.settle()
         assert getattr(hand.session.settings, name) == value
-        ctx.item_double_click(reference)
+        ctx.mouse_move(reference)
+        click_twice(hand)
         hand.settle()
         assert getattr(hand.session.settings, name) == Settings.model_fields[name].default
     ctx.key_press(imgui.Key.mod_ctrl.value | imgui.Key.z.value)
@@ -177,6 +178,6 @@ def a_double_click_sets_the_default(hand: Hand) -> None:
     move(hand, "method/naive", None)
     item = ctx.item_info("//Controls/method")
     ctx.mouse_move_to_pos((item.rect_full.max.x + 20, item.rect_full.get_center().y))
-    ctx.mouse_double_click(0)
+    click_twice(hand)
     hand.settle()
     assert hand.session.settings.method == "mis"

@@ -6,8 +6,10 @@ from pathlib import Path
 from typing import Any
 
 import glfw
+import numpy as np
 
 from glrt.scene.scenefile.toml import read_scene
+from tests.support.image_bytes import flat_hdr
 from tests.window.gestures import answer, reopen
 from tests.window.hand import Hand, check
 
@@ -32,6 +34,29 @@ def a_scene_dropped_by_another_program_is_opened(hand: Hand) -> None:
     hand.settle()
     assert hand.session.scene.objects == read_scene(file).objects
     reopen(hand)
+
+
+@check
+def an_image_of_the_sky_dropped_by_another_program_lights_the_scene(hand: Hand) -> None:
+    file = Path.cwd() / "dusk.hdr"
+    file.write_bytes(flat_hdr(np.full((2, 4, 4), 130, np.uint8)))
+    walls = hand.session.scene
+    scene = walls.model_copy(update={"objects": walls.objects[5:]})  # planes let no light in
+    hand.there(lambda: hand.session.edit(scene))
+    hand.settle()
+    before = hand.pixels()
+    assert dropped(hand, file) == 0
+    hand.until(lambda: hand.session.scene is not scene)
+    hand.settle()
+    image = hand.session.scene.background.image
+    assert image
+    assert image.file == file.name
+    assert not hand.session.problem
+    assert (hand.pixels() > before).mean() > 0.5
+    assert hand.window.app.undoes == "Undo: background"
+    hand.there(hand.session.undo)
+    assert hand.session.scene is scene
+    file.unlink()
 
 
 @check

@@ -81,6 +81,9 @@ def arrow_keys_choose_a_row_and_a_click_elsewhere_closes_the_box(hand: Hand) -> 
     assert hand.window._palette.row == 0
     assert hand.session.scene.camera == camera
     box: Any = hand.ctx.window_info(f"//{NAME}").window
+    picture: Any = hand.ctx.window_info("//Picture").window
+    assert picture.pos.x < box.pos.x, "it covers no control"
+    assert box.pos.x + box.size.x < picture.pos.x + picture.size.x
     hand.ctx.mouse_move_to_pos((box.pos.x + 5, box.pos.y + box.size.y + 30))
     hand.ctx.mouse_click(0)
     hand.ctx.yield_(2)

@@ -58,12 +58,16 @@ def click(hand: Hand, point: Any) -> None:
 
 
 def double_click(hand: Hand, point: Any) -> None:
-    """However long the frames of a busy machine take."""
+    hand.ctx.mouse_move_to_pos(place_of(hand, point))
+    hand.ctx.yield_()
+    click_twice(hand)
+
+
+def click_twice(hand: Hand) -> None:
+    """A double click where the mouse is, however long the frames of a busy machine take."""
     io = imgui.get_io()
     before = io.mouse_double_click_time, io.mouse_single_click_delay
     io.mouse_double_click_time, io.mouse_single_click_delay = WAIT, WAIT + 1
-    hand.ctx.mouse_move_to_pos(place_of(hand, point))
-    hand.ctx.yield_()
     hand.ctx.mouse_double_click(0)
     hand.ctx.yield_(2)
     io.mouse_double_click_time, io.mouse_single_click_delay = before

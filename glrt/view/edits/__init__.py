@@ -5,9 +5,11 @@ Modules, each importing only what stands above it:
 - scene_edits: objects and materials added, copied, renamed, removed
 - media_edits: media added, chosen and changed
 - file_camera: cameras of glTF files, read again and saved
+- sky_images: images that become the background
 - new_objects: new objects and their placement
 - edited_state: the value that undo restores
 - state_differences: differences of two states, in words
-- saved_state: edits that are not saved
+- unsaved: what a save would change
+- locks: objects that no edit changes
 - editing: current and earlier states
 """

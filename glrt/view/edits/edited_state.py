@@ -15,6 +15,7 @@ class State:
     scene: Scene
     settings: Settings
     by_length: bool = False  # whether layers hold path lengths, so that bounces are weighted
+    locked: frozenset[int] = frozenset()  # numbers of the objects that no edit changes
 
     @property
     def layering(self) -> Layering:

@@ -7,6 +7,7 @@ from glrt.core.errors import GlrtError
 from glrt.scene.scene import Scene
 from glrt.settings import Settings, settings_for
 from glrt.view.edits.edited_state import State
+from glrt.view.edits.locks import followed
 
 Value = TypeVar("Value")
 
@@ -112,7 +113,22 @@ class Editing:
         except GlrtError as error:
             self.problem = str(error)
             return
-        self._take(replace(self.state, scene=scene or self.scene, settings=settings), gesture)
+        self._take(self._with(scene or self.scene, settings), gesture)
+
+    def open(self, opened: State) -> None:
+        """Begin with another scene, without locks; undo leads back."""
+        self.opened = opened
+        self._take(replace(opened, by_length=self.by_length))
+
+    def lock(self, number: int, wanted: bool) -> None:
+        """Lock an object against edits, or unlock it; this is a step of undo."""
+        rest = self.state.locked - {number}
+        self._take(replace(self.state, locked=rest | {number} if wanted else rest))
+
+    def _with(self, scene: Scene, settings: Settings) -> State:
+        """Return the state with another scene and settings; locks stay with their objects."""
+        locked = followed(self.state.locked, self.scene.objects, scene.objects)
+        return replace(self.state, scene=scene, settings=settings, locked=locked)
 
     def undo(self) -> None:
         """Undo the last gesture."""

@@ -169,6 +169,19 @@ def found_again(
     return new[0] if len(after) == len(before) + 1 and len(new) == 1 else None
 
 
+def opened_shape(opened: tuple[Shape, ...], now: tuple[Shape, ...], index: int) -> Shape | None:
+    """Return object `index` of the scene as the scene was opened; None if none is known.
+
+    It has the same name. Without a name it has the same number, if no objects came or went.
+    """
+    shape = now[index]
+    same = opened[index : index + 1] if len(opened) == len(now) else ()
+    if shape.name and not (same and same[0].name == shape.name):
+        same = tuple(it for it in opened if it.name == shape.name)
+    is_known = len(same) == 1 and same[0].name == shape.name and type(same[0]) is type(shape)
+    return same[0] if is_known else None
+
+
 def free_name(wanted: str, taken: Iterable[str]) -> str:
     """Return the name, with a number appended if it is taken: "ball", "ball 2", "ball 3"."""
     names = set(taken)

@@ -14,6 +14,9 @@ MOST = 3  # differences that are named; the others are counted
 def change_text(before: State, after: State) -> str:
     """Return the edit between two states in words: "center of glass ball", "camera, bounces"."""
     parts = [*_of_scene(before.scene, after.scene), *_fields(before.settings, after.settings)]
+    if len(before.scene.objects) == len(after.scene.objects):  # else the numbers differ
+        changed = sorted(before.locked ^ after.locked)
+        parts += [f"lock of {name_of(after.scene.objects[number])}" for number in changed]
     if before.by_length != after.by_length:
         parts.append("bounces live")
     more = f" and {len(parts) - MOST} more" if len(parts) > MOST else ""

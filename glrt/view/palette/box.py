@@ -9,6 +9,7 @@ from glrt.view.panels.navigation import PICTURE
 
 NAME = "Find###palette"
 _WIDTH, _ROWS = 34.0, 12.0  # em, and rows that are seen at once
+_LEAST = 24.0  # em: a narrower picture is no place for the box
 _SHARE = 0.92  # of the window: the largest size
 _TOP = 0.08  # of the window: above the box
 _STEPS = {imgui.Key.down_arrow: 1, imgui.Key.up_arrow: -1}
@@ -28,9 +29,8 @@ class Palette:
         if not app.shows_palette:
             return
         area = imgui.get_main_viewport()
-        top = area.pos + ImVec2(area.size.x / 2, _TOP * area.size.y)
+        top, width = _place()
         imgui.set_next_window_pos(top, imgui.Cond_.always.value, ImVec2(0.5, 0.0))
-        width = min(hello_imgui.em_size(_WIDTH), _SHARE * area.size.x)
         imgui.set_next_window_size(ImVec2(width, 0.0))
         imgui.set_next_window_bg_alpha(1.0)
         imgui.push_style_var(imgui.StyleVar_.window_border_size, 1.0)
@@ -83,6 +83,19 @@ class Palette:
             _row(entry, end)
         imgui.end_child()
         return clicked
+
+
+def _place() -> tuple[ImVec2, float]:
+    """Return the middle of the upper edge, in pixels of the screen, and the width of the box.
+
+    It lies over the picture, or in the middle of the window if the picture is too narrow.
+    """
+    area = imgui.get_main_viewport()
+    picture = imgui.internal.find_window_by_name(PICTURE)
+    is_wide = picture and _SHARE * picture.size.x >= hello_imgui.em_size(_LEAST)
+    part = picture if picture and is_wide else area
+    width = min(hello_imgui.em_size(_WIDTH), _SHARE * part.size.x)
+    return ImVec2(part.pos.x + part.size.x / 2, area.pos.y + _TOP * area.size.y), width
 
 
 _HOVERED = int(imgui.HoveredFlags_.root_and_child_windows)

@@ -82,7 +82,7 @@ def _entry(app: App, row: Row) -> Entry:
     label, _, kind = row.label.partition("##")
     name = f"{label} of {kind}" if kind and kind not in _KINDS else label
     control = row.control
-    shown = value_text(row.value) if control else "button"
+    shown = "button" if row.value is None and not control else value_text(row.value)
     return Entry(name, row.section, shown, control.help if control else "", partial(_go, app, row))
 
 

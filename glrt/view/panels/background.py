@@ -53,7 +53,7 @@ def _image(app: App) -> None:
 def _sky(app: App, sky: ClearSky) -> None:
     cost = cost_of_light(app.session, SKY_GROUP)
     rows = tuple(row.costing(cost) if row.name == "scale" else row for row in SKY.values())
-    changes = edited_fields(rows, dict(sky), "sky")
+    changes = edited_fields(rows, dict(sky), "sky", app.session.opened.scene.background.sky)
     if changes:
         changed = partial(_with_background, sky=replaced(sky, **changes))
         app.edit_scene(f"sky {list(changes)}", changed)
@@ -80,7 +80,8 @@ def _gradient(app: App) -> None:
 
 def _edit(app: App, values: dict[str, Any], **kept: Any) -> None:
     """Draw widgets for `values`; after an edit, the background has these keys and `kept` alone."""
-    changes = edited_fields(tuple(BACKGROUND[name] for name in values), values, "background")
+    controls, opened = (BACKGROUND[name] for name in values), app.session.opened.scene.background
+    changes = edited_fields(tuple(controls), values, "background", opened)
     if changes:
         app.edit_scene("background", partial(_with_background, **{**kept, **values, **changes}))
 

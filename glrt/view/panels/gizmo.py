@@ -11,7 +11,7 @@ from glrt.view.viewport.transform import moved_to, object_matrix, projection_mat
 def draw_gizmo(app: App, left: float, top: float, width: float, height: float) -> None:
     """Draw the handles; the rectangle is that of the picture on the screen, in pixels."""
     shape = app.selected_shape
-    if shape is None or app.paths.is_choosing:  # a click chooses the pixel
+    if shape is None or app.is_locked or app.paths.is_choosing:  # a click chooses the pixel
         return
     settings = app.session.settings
     im_guizmo.begin_frame()
@@ -36,6 +36,6 @@ def draw_gizmo(app: App, left: float, top: float, width: float, height: float) -
 
 def is_held(app: App) -> bool:
     """Whether the mouse is over or drags the handles, so that it does not move the camera."""
-    if app.selected_shape is None or app.paths.is_choosing:
+    if app.selected_shape is None or app.is_locked or app.paths.is_choosing:
         return False
     return bool(im_guizmo.is_using() or im_guizmo.is_over())

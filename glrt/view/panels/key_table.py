@@ -12,7 +12,7 @@ from glrt.view.widgets.fields import beside, button, tip
 NAME = "Keys###keys over the window"
 _SHARE = 0.92  # of the window: the largest size of that box
 _APART = 2.0  # em: between its columns
-_MOUSE = {  # in the picture
+_MOUSE = {  # in the picture, and on labels in the panel
     "left drag": "turn about the pivot; in fly mode: look around",
     "right drag": "look around; in fly mode: turn about the pivot",
     "middle drag": "shift",
@@ -22,6 +22,7 @@ _MOUSE = {  # in the picture
     "click": "select an object; its handles move it, with Shift they scale it",
     "Alt, click": "focus on that point",
     "double click": "make that point the pivot",
+    "drag a label": "change its value; a double click there sets it back",
 }
 
 
@@ -158,7 +159,7 @@ def _tables(app: App) -> None:
     if wide < room:
         imgui.same_line(0.0, hello_imgui.em_size(_APART))
     imgui.begin_group()
-    imgui.text_disabled("in the picture")
+    imgui.text_disabled("mouse")
     _table("mouse", mouse)
     imgui.text_disabled("commands")
     _table("commands", commands)

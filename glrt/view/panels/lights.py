@@ -59,7 +59,7 @@ def draw_lamp(app: App, name: str, group: str) -> None:
 
 def _intensity(app: App, group: str, value: float, row: str, key: str) -> None:
     control = INTENSITY.named(row).costing(cost_of_light(app.session, group))
-    new = edited(control, value, key)
+    new = edited(control.back_to(_opened(app.session.opened.scene).get(group)), value, key)
     if new is not None:
         app.edit_scene(f"light {group}", partial(with_lights, intensities={group: new}))
 
@@ -70,9 +70,17 @@ def _emission(app: App, name: str, is_one: bool, key: str) -> None:
     if not isinstance(material, Light):
         return
     row = EMISSION if is_one else EMISSION.named(f"{name} emission")
+    before = app.session.opened.scene.materials.get(name)
+    row = row.back_to(before.emission if isinstance(before, Light) else None)
     color = edited(row.costing(cost_of_tint(app.session, name)), material.emission, key)
     if color is not None:
         app.edit_scene(f"emission {name}", partial(with_material, name=name, emission=color))
+
+
+@kept_for_the_same
+def _opened(scene: Scene) -> dict[str, float]:
+    """Return the intensity of each light group of the scene as it was opened."""
+    return scene.light_groups
 
 
 @kept_for_the_same

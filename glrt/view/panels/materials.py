@@ -124,7 +124,9 @@ def _values(app: App, name: str, material: Material, group: str) -> None:
     """Draw the values, cone and textures of a material; `group`: light group of its object."""
     if isinstance(material, Light):
         draw_lamp(app, name, group)
-    changes = edited_fields(_controls(material), dict(material), f"material {name}")
+    before = app.session.opened.scene.materials.get(name)
+    opened = before if type(before) is type(material) else None
+    changes = edited_fields(_controls(material), dict(material), f"material {name}", opened)
     if changes:
         app.edit_scene(f"{name} {list(changes)}", partial(with_material, name=name, **changes))
     elif isinstance(material, Opaque):

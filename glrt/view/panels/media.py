@@ -47,6 +47,7 @@ def draw_medium(app: App, index: int, shape: Shape) -> None:
 
 def _values(app: App, name: str) -> None:
     imgui.separator_text(f"medium {name}")
-    changes = edited_fields(VALUES, dict(app.session.scene.media[name]), f"medium {name}")
+    medium, opened = app.session.scene.media[name], app.session.opened.scene.media.get(name)
+    changes = edited_fields(VALUES, dict(medium), f"medium {name}", opened)
     if changes:
         app.edit_scene(f"{name} {list(changes)}", partial(with_medium, name=name, **changes))

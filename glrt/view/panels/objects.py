@@ -14,7 +14,8 @@ from glrt.view import file_dialogs
 from glrt.view.app import App
 from glrt.view.controls import controls_of, replaced
 from glrt.view.edits.new_objects import ADDED
-from glrt.view.edits.scene_edits import with_object, with_own_group
+from glrt.view.edits.scene_edits import opened_shape, with_object, with_own_group
+from glrt.view.outliner.listing import OUTLINER
 from glrt.view.panels.materials import draw_material
 from glrt.view.panels.media import draw_medium
 from glrt.view.widgets.cost_badges import tag
@@ -27,8 +28,9 @@ _NONE = "nothing"
 def draw_object(app: App) -> None:
     """Draw the choice of the object, and the shape and the material of the selected one."""
     if app.is_to_be_seen:
-        ANCHOR.go_here()
-        app.is_to_be_seen = False
+        if not OUTLINER.is_first:
+            ANCHOR.go_here()
+        app.is_to_be_seen = OUTLINER.is_first = False
     _chooser(app)
     _commands(app)
     shape = app.selected_shape
@@ -36,11 +38,13 @@ def draw_object(app: App) -> None:
         imgui.text_disabled("click an object in the picture")
         return
     _buttons(app, shape)
+    imgui.begin_disabled(app.is_locked)
     _name_of(app, app.selected, shape)
     _shape(app, app.selected, shape)
     draw_medium(app, app.selected, shape)
     imgui.separator_text(f"material of {_name(app.selected, shape)}")
     draw_material(app, app.selected, shape)
+    imgui.end_disabled()
 
 
 def _chooser(app: App) -> None:
@@ -87,7 +91,7 @@ def _commands(app: App) -> None:
         app.duplicate()
     tip("A copy above or below it, of the same material")
     beside("delete")
-    if button("delete", has_one):
+    if button("delete", has_one and not app.is_locked):
         app.delete()
     tag(Cost.RECOMPILE)
 
@@ -109,6 +113,13 @@ def _buttons(app: App, shape: Shape) -> None:
     beside("focus here")
     if button("focus here"):
         app.focus_on(shape.middle)
+    if app.is_locked:
+        beside("unlock")
+        if button("unlock"):
+            app.session.lock(app.selected or 0, False)
+        tip("A lock keeps edits away from the values below; the list of the part Scene locks")
+        tag(Cost.FREE)
+        return
     beside("handles; Shift scales")
     imgui.text_disabled("handles; Shift scales")
     tip("Drag the handles of the selected object in the picture to move it")
@@ -139,7 +150,8 @@ def _lamps_of(scene: Scene) -> Counter[str]:
 def _shape(app: App, index: int, shape: Shape) -> None:
     values = dict(shape)
     controls = tuple(it for it in controls_of(type(shape)) if values[it.name] is not None)
-    changes = edited_fields(controls, values, f"shape {index}")
+    opened = opened_shape(app.session.opened.scene.objects, app.session.scene.objects, index)
+    changes = edited_fields(controls, values, f"shape {index}", opened)
     if changes:
         app.edit_scene(f"object {index} {list(changes)}", partial(_reshaped, index, changes))
 

@@ -15,6 +15,7 @@ from glrt.scene.warnings import cautions
 from glrt.settings import Cost, Settings
 from glrt.view.app import App
 from glrt.view.controls import Control, controls_of, replaced, switch
+from glrt.view.outliner.listing import SECTION, draw_outliner
 from glrt.view.panels.background import draw_background
 from glrt.view.panels.bar import bar_end, below_bar
 from glrt.view.panels.compare import draw_compare, draw_view
@@ -74,6 +75,7 @@ def _rows(app: App) -> None:
             imgui.set_next_item_open(True)
         is_shown = imgui.collapsing_header(title, flags)
         ANCHOR.note()
+        FINDER.mark("")
         top = imgui.get_item_rect_min().y
         is_new = is_shown and imgui.is_item_toggled_open()
         if is_shown:
@@ -115,7 +117,8 @@ def _paths(app: App) -> None:
     session = app.session
     reach = reach_of_bounces(session)
     bounces = SETTINGS["bounces"].costing(Cost.RELIGHT if reach else Cost.RESTART, reach)
-    _edit(app, edited_fields((bounces,), dict(session.settings)))
+    opened = session.opened.settings
+    _edit(app, edited_fields((bounces,), dict(session.settings), opened=opened))
     if session.pipeline == "compute":
         is_live = edited(LIVE, session.by_length)
         session.by_length = session.by_length if is_live is None else is_live
@@ -150,12 +153,17 @@ def _samples(app: App) -> None:
     tag(Cost.RESTART)
 
 
+def _numbers(camera: Camera) -> dict[str, Any]:
+    """Return the fields of a camera, with the distance to which it is in focus."""
+    return {**dict(camera), "focus_distance": camera.resolved_focus_distance}
+
+
 def _camera(app: App) -> None:
     camera = app.camera
+    values = _numbers(camera)
     names = ("fov", "focus_distance", "defocus_angle", "position", "look_at")
-    values = {name: getattr(camera, name) for name in names}
-    values["focus_distance"] = camera.resolved_focus_distance
-    changes = edited_fields(tuple(CAMERA[name] for name in names), values)
+    controls, opened = tuple(CAMERA[name] for name in names), app.session.opened.scene.camera
+    changes = edited_fields(controls, values, opened=_numbers(opened))
     if changes:
         app.edit_scene(f"camera {list(changes)}", partial(_with_camera, **changes))
     if camera.focus_distance is not None and button("focus on look at"):
@@ -174,7 +182,8 @@ def _frame(app: App) -> None:
     session = app.session
     usual = Cost.RECOMPILE if session.lacks_room else Cost.RESTART
     sides = tuple(SETTINGS[side].costing(usual, reach_of_size(session, side)) for side in FRAME)
-    _edit(app, edited_fields(sides, dict(session.settings)))
+    opened = session.opened.settings
+    _edit(app, edited_fields(sides, dict(session.settings), opened=opened))
 
 
 def _window(app: App) -> None:
@@ -185,7 +194,8 @@ def _window(app: App) -> None:
 
 
 def _settings(app: App, names: tuple[str, ...]) -> None:
-    _edit(app, edited_fields(tuple(SETTINGS[n] for n in names), dict(app.session.settings)))
+    controls, opened = tuple(SETTINGS[n] for n in names), app.session.opened.settings
+    _edit(app, edited_fields(controls, dict(app.session.settings), opened=opened))
 
 
 def _edit(app: App, changes: dict[str, Any]) -> None:
@@ -208,6 +218,7 @@ SECTIONS = (
     ("Inspect", draw_inspector, 0),
     ("Paths of a pixel", draw_pixel_paths, 0),
     ("Camera", _camera, _OPEN),
+    (SECTION, draw_outliner, _OPEN),
     ("Object", draw_object, _OPEN),
     ("Compare", draw_compare, _OPEN),
     ("Background", draw_background, 0),

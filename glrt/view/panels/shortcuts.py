@@ -5,6 +5,7 @@ from collections.abc import Callable
 from imgui_bundle import imgui
 
 from glrt.view.app import App
+from glrt.view.outliner.listing import OUTLINER
 from glrt.view.panels.key_table import is_choosing, key_named
 from glrt.view.panels.navigation import leaves, navigate
 from glrt.view.state.keys import Action, Move
@@ -27,9 +28,11 @@ COMMANDS: dict[Action, Callable[[App], object]] = {  # command of each action
     "paths": lambda app: app.choose_paths(),
     "keys": lambda app: app.toggle_keys(),
     "palette": lambda app: app.toggle_palette(),
+    "find_object": lambda app: OUTLINER.find(app),
     "brighter": lambda app: app.expose(_STOP),
     "darker": lambda app: app.expose(-_STOP),
     "picture_alone": lambda app: app.toggle_panels(),
+    "full_screen": lambda app: app.fill_screen(),
     "panel": lambda app: navigate(app, not app.navigates),
     "undo": lambda app: app.undo(),
     "redo": lambda app: app.redo(),
@@ -94,10 +97,13 @@ def modifiers() -> list[str]:
 
 
 def _is_held(app: App, action: Action) -> bool:
-    """Whether a key of an action is down, without Ctrl."""
+    """Whether a key of an action is down, without Ctrl; arrow keys may move in the list."""
     if "ctrl" in modifiers():
         return False
-    return any(imgui.is_key_down(key_named(name)) for name in app.preferences.bindings[action])
+    names = app.preferences.bindings[action]
+    if app.has_list_keys:
+        names = tuple(name for name in names if not name.endswith("_arrow"))
+    return any(imgui.is_key_down(key_named(name)) for name in names)
 
 
 def _is_pressed(app: App, action: Action) -> bool:

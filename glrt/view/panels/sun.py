@@ -33,7 +33,7 @@ def draw_sun(app: App) -> None:
             replace(row, low=0.0, slider=(0, 90)) if row.name == "elevation" else row
             for row in rows
         ]
-    changes = edited_fields(tuple(rows), values, "sun")
+    changes = edited_fields(tuple(rows), values, "sun", app.session.opened.scene.sun)
     if changes:
         app.edit_scene(f"sun {list(changes)}", partial(_with_sun, **changes))
 

@@ -26,6 +26,7 @@ from glrt.view.state.keys import label
 from glrt.view.state.live_probes import notice_of_lag
 from glrt.view.state.zoom import Rectangle, common
 from glrt.view.viewport.outline import outline
+from glrt.view.widgets.scrub import SCRUB
 
 _EVERY_BUTTON = int(
     imgui.ButtonFlags_.mouse_button_left
@@ -159,7 +160,7 @@ def _outline(app: App, seen: Rectangle) -> None:
     left, top, width, height = app.rectangle
     settings = app.session.settings
     painter, here = imgui.get_window_draw_list(), (left, top)
-    fade = _FADED if imgui.is_any_item_active() else 1.0
+    fade = _FADED if is_dragging() else 1.0
     if isinstance(shape, Mesh):
         line = app.silhouette.draw(shape, app.camera, app.rectangle, seen)
         corner, end = seen[:2], (seen[0] + seen[2], seen[1] + seen[3])
@@ -174,6 +175,12 @@ def _outline(app: App, seen: Rectangle) -> None:
         for start, end in places:
             painter.add_line(start, end, color, thickness)
     painter.pop_clip_rect()
+
+
+def is_dragging() -> bool:
+    """Whether the mouse drags something; a text that is typed is no drag."""
+    is_active = imgui.is_any_item_active() and not imgui.get_io().want_text_input
+    return bool(is_active or SCRUB.is_under_way)
 
 
 _edges = kept_for_the_same(outline)

@@ -11,17 +11,16 @@ from pathlib import Path
 from glrt.core.errors import GlrtError
 from glrt.core.files import reason, write_text
 from glrt.core.text import escaped
-from glrt.image.sources import shown
+from glrt.image.sources import STANDARD_INPUT, shown
 from glrt.scene.files.assets import AssetFolder
-from glrt.scene.scenefile.catalog import find
 from glrt.scene.scenefile.toml_writer import scene_with
 from glrt.view.edits.edited_state import State
 from glrt.view.edits.editing import MOST
 from glrt.view.files import Files
 from glrt.view.recovery.claims import Claim
 from glrt.view.recovery.contents import added_models, scene_of, text_of
-from glrt.view.recovery.headers import Header, key_of
-from glrt.view.recovery.offers import lock_of, offers_for
+from glrt.view.recovery.headers import Header, base_of, key_of
+from glrt.view.recovery.offers import lock_of, offers_for, prune
 
 SOON = 3.0  # seconds between two saves
 SHARE = 0.05  # largest share of the time that saving takes
@@ -37,7 +36,10 @@ class Recovery:
     def __init__(
         self, files: Files, folder: Path, clock: Callable[[], float] = time.perf_counter
     ) -> None:
-        """Offer the edits of earlier windows of this scene; nothing is written yet."""
+        """Offer the edits of earlier windows of this scene; nothing is written yet.
+
+        Recovery files that nothing will ask for are removed; see `prune`.
+        """
         self._files, self._folder, self._clock = files, folder, clock
         self.file = folder / f"{os.getpid()}-{secrets.token_hex(4)}.toml"
         self._claim: Claim | None = None
@@ -46,15 +48,16 @@ class Recovery:
         self._steps = 0  # of undo, when nothing was unsaved
         self._has_complained = False
         self._source = files.source
-        self.offers = offers_for(key_of(files.source), folder)
+        prune(folder, time.time())
+        self.offers = offers_for(key_of(files.source, files.saved), folder)
 
     def follow(self) -> None:
         """Write or remove the file if that is due, and offer the edits of a scene opened now."""
         if self._files.source != self._source:
             self._source = self._files.source
             self._leave_offers()
-            self.offers = offers_for(key_of(self._source), self._folder)
-        if not self._files.is_changed:
+            self.offers = offers_for(key_of(self._source, self._files.saved), self._folder)
+        if not self._files.is_other:
             self._steps = self._files.session.history.steps
             self._remove()
         elif self._is_due():
@@ -71,8 +74,8 @@ class Recovery:
 
     def keep(self) -> bool:
         """Write unsaved edits now; a failure is reported once. Returns whether they are kept."""
-        key, start = key_of(self._files.source), self._clock()
-        if not (key and self._files.is_changed):
+        key, start = key_of(self._files.source, self._files.saved), self._clock()
+        if not (key and self._files.is_other):
             return False
         problem = self._write(key)
         if problem and not self._has_complained:
@@ -106,14 +109,14 @@ class Recovery:
         """Restore the edits that are offered, as one step of undo; a failure is reported."""
         offer, files = self.offers[0], self._files
         with files.messages.reporting():
-            base = files.rules.folder or find(files.source).absolute().parent
+            base = files.rules.folder or base_of(files.source)
             folder = AssetFolder(base, files.rules.allow_outside)
             scene = scene_of(offer.file, offer.header, files.saved, folder)
             files.session.edit(scene, **dict(scene.render))
             if files.session.scene is scene:
                 files.show(scene)
                 self.offers.pop(0)
-                is_safe = self.keep() or not files.is_changed
+                is_safe = self.keep() or not files.is_other
                 (offer.discard if is_safe else offer.leave)()
 
     def discard(self) -> None:
@@ -127,7 +130,7 @@ class Recovery:
     def end(self, is_interrupted: bool) -> None:
         """Remove the file, or write it for the next start if a signal ends the window."""
         self._leave_offers()
-        if not (is_interrupted and self._files.is_changed):
+        if not (is_interrupted and self._files.is_other):
             self._remove()
             return
         self.keep()
@@ -139,12 +142,14 @@ class Recovery:
         """Keep unsaved edits when the display is lost; returns a paragraph on where they are."""
         gone = "the display is gone, and the window with it."
         source = shown(self._files.source)
-        if not self._files.is_changed:
+        if not self._files.is_other:
             return f"{gone} No edits were unsaved."
         if not self.keep():
             return f"{gone} The unsaved edits of {source} could not be kept."
         kept = f"The unsaved edits are kept in {escaped(str(self.file))}"
-        return f"{gone} {kept}: `glrt view {shlex.quote(source)}` offers to restore them."
+        again = shlex.quote(source) if self._files.source != STANDARD_INPUT else "-"
+        same = " with the same scene" * (again == STANDARD_INPUT)
+        return f"{gone} {kept}: `glrt view {again}`{same} offers to restore them."
 
     def _remove(self) -> None:
         """Remove the file and its lock, if they are there."""

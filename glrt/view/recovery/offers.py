@@ -6,7 +6,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from glrt.view.recovery.claims import Claim
-from glrt.view.recovery.headers import Header, header_of
+from glrt.view.recovery.headers import Header, header_of, is_gone
+
+KEPT = 30 * 86_400.0  # seconds for which the edits of a scene that is gone are kept
 
 
 @dataclass(frozen=True)
@@ -36,6 +38,19 @@ def lock_of(file: Path) -> Path:
 def offers_for(key: str, folder: Path) -> list[Offer]:
     """Return claimed recovery files of a scene, the newest first; not those of open windows."""
     return sorted(_claimed(key, folder), key=lambda it: it.header.saved, reverse=True)
+
+
+def prune(folder: Path, now: float) -> None:
+    """Remove recovery files older than KEPT whose scene is gone; `now` in seconds since 1970.
+
+    Files of open windows stay, and so do those whose scene is there: its next window offers them.
+    """
+    for file in folder.glob("[!.]*.toml"):
+        header = header_of(file)
+        if header is None or now - header.saved < KEPT or not is_gone(header.source):
+            continue
+        with suppress(OSError):  # a window that is open has locked it
+            Offer(file, header, Claim(lock_of(file))).discard()
 
 
 def _claimed(key: str, folder: Path) -> Iterator[Offer]:

@@ -8,8 +8,8 @@ Move = Literal["forward", "back", "left", "right", "up", "down"]
 Action = (
     Move
     | Literal["home", "frame", "pause", "undo", "redo"]
-    | Literal["fit", "one_to_one", "inspect", "paths", "panel", "keys", "palette"]
-    | Literal["brighter", "darker", "picture_alone"]
+    | Literal["fit", "one_to_one", "inspect", "paths", "panel", "keys", "palette", "find_object"]
+    | Literal["brighter", "darker", "picture_alone", "full_screen"]
     | Literal["duplicate", "delete", "open", "save_scene", "save_scene_as", "save", "quit"]
 )
 Bindings = dict[Action, tuple[str, ...]]
@@ -31,9 +31,11 @@ DEFAULTS: Bindings = {
     "brighter": ("right_bracket",),
     "darker": ("left_bracket",),
     "picture_alone": ("n",),
+    "full_screen": ("f11",),
     "panel": ("f6",),
     "keys": ("f1",),
     "palette": ("ctrl+k",),
+    "find_object": ("ctrl+f",),
     "undo": ("ctrl+z",),
     "redo": ("ctrl+y", "ctrl+shift+z"),
     "duplicate": ("ctrl+d",),
@@ -61,9 +63,11 @@ MEANING: dict[Action, str] = {
     "brighter": "expose half a stop more",
     "darker": "expose half a stop less",
     "picture_alone": "hide the panels, and show them",
+    "full_screen": "show the window in full screen, and back",
     "panel": "move in the panel by keys, and back",
     "keys": "show these keys",
     "palette": "find a control or a command",
+    "find_object": "find an object in the list",
     "undo": "undo",
     "redo": "redo",
     "duplicate": "duplicate the selection",

@@ -5,6 +5,7 @@ Edits are collected and reach the renderer once a frame. Nothing here needs the 
 
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 from glrt.core.errors import GlrtError, RenderError, UsageError
@@ -270,7 +271,8 @@ class Session(Editing):
         own = self.settings.model_dump(include={"aov", "seed"})
         settings = settings_for(self.renderer.settings, **own)
         by_length = self.renderer.plan.layering == "lengths"
-        self.state = State(self.renderer.scene, settings, by_length).sized(*self._full_size)
+        before = replace(self._with(self.renderer.scene, settings), by_length=by_length)
+        self.state = before.sized(*self._full_size)
 
     def _pending_cost(self) -> Cost | None:
         """Return the cost of edits that the renderer lacks; the size of a preview is no edit."""

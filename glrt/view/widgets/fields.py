@@ -12,9 +12,10 @@ from glrt.view.controls import MEANING, Control
 from glrt.view.state.explanations import explanation_of
 from glrt.view.widgets.cost_badges import tag, tags, tags_start
 from glrt.view.widgets.finder import FINDER
-from glrt.view.widgets.reset import default_text, reset_or
+from glrt.view.widgets.reset import by_gestures, gesture_texts
 from glrt.view.widgets.slider_text import Slider, share_of, text_next_to_grip
 from glrt.view.widgets.steady_widget import ANCHOR
+from glrt.view.widgets.tips import explain
 
 Drawn = TypeVar("Drawn")
 
@@ -22,7 +23,6 @@ _MOST_DIGITS = 20  # of an integer: more are beyond any limit, and Python reads 
 LEAST = 4.0  # em, the height of a letter: least width of a widget with its label next to it
 WORDS = 7.0  # em: the same for one that shows a word or a name
 _MOST_ROWS = 14  # of a list without scrolling
-_TIP = 28.0  # em: width of a tooltip
 _TOLD = 8.0  # em: from the left edge of a list to the explanations of its words
 _NO_TOOLTIP = imgui.ColorEditFlags_.no_tooltip.value
 _LOGARITHMIC = imgui.SliderFlags_.logarithmic.value
@@ -49,7 +49,7 @@ def _drawn_next_to(control: Control, label: str, value: Any) -> tuple[bool, Any]
     imgui.set_next_item_width(width)
     drawn = _draw(control, label, value)
     is_label = imgui.get_io().mouse_pos.x > imgui.get_item_rect_min().x + width
-    drawn = reset_or(drawn, control, is_label)
+    drawn = by_gestures(drawn, control, imgui.get_id(label), value, is_label)
     tooltip(control, label)
     tags(control)
     return drawn
@@ -58,10 +58,10 @@ def _drawn_next_to(control: Control, label: str, value: Any) -> tuple[bool, Any]
 def _drawn_below(control: Control, label: str, value: Any) -> tuple[bool, Any]:
     """Draw a widget below its label; the widget's own label, its id, is cut off."""
     imgui.text(control.label)
-    drawn = reset_or((False, value), control, is_label=True)
+    drawn = by_gestures((False, value), control, imgui.get_id(label), value, is_label=True)
     tags(control)
     below = _clipped(lambda: _draw(control, label, value))
-    below = reset_or(below, control, is_label=False)
+    below = by_gestures(below, control, 0, value, is_label=False)
     tooltip(control, label)
     return drawn if drawn[0] else below
 
@@ -129,11 +129,7 @@ def tip(text: str, widget: int = 0) -> None:
     `widget`: see `Anchor.note`.
     """
     ANCHOR.note(widget)
-    if not imgui.is_mouse_down(0) and imgui.begin_item_tooltip():
-        imgui.push_text_wrap_pos(hello_imgui.em_size(_TIP))
-        imgui.text_unformatted(text)
-        imgui.pop_text_wrap_pos()
-        imgui.end_tooltip()
+    explain(text)
 
 
 def tooltip(control: Control, label: str) -> None:
@@ -144,7 +140,7 @@ def tooltip(control: Control, label: str) -> None:
         f"{cost.value} {where}".strip() + f": {MEANING[cost]}" for cost, where in control.costs
     )
     why = explanation_of(control)
-    lines = [f"{help_text}{unit}", *default_text(control), *costs, *(["", why] if why else [])]
+    lines = [f"{help_text}{unit}", *gesture_texts(control), *costs, *(["", why] if why else [])]
     told = "\n".join(lines)
     tip(told, imgui.get_id(label))
 
@@ -286,8 +282,12 @@ def _clamped(control: Control, value: Any) -> Any:
 
 
 def edited_fields(
-    controls: tuple[Control, ...], values: Mapping[str, Any], name: str = ""
+    controls: tuple[Control, ...], values: Mapping[str, Any], name: str = "", opened: Any = None
 ) -> dict[str, Any]:
-    """Draw the widgets of several fields; return the edited fields with their new values."""
-    drawn = {c.name: edited(c, values[c.name], name) for c in controls}
+    """Draw the widgets of several fields; return the edited fields with their new values.
+
+    `opened` has the fields as the scene was opened; a double click on a widget goes back to them.
+    """
+    before = dict(opened) if opened else {}
+    drawn = {c.name: edited(c.back_to(before.get(c.name)), values[c.name], name) for c in controls}
     return {field: value for field, value in drawn.items() if value is not None}

@@ -17,7 +17,10 @@ _COLOR = (1.0, 0.65, 0.1, 1.0)
 
 @dataclass(frozen=True)
 class Row:
-    """A control, or a button, whose `control` is None, with its label and its present value."""
+    """A control, or a button, whose `control` is None, with its label and its present value.
+
+    The label "" is the title of the part itself.
+    """
 
     section: str
     label: str

@@ -1,10 +1,11 @@
-"""A double click that sets the default of a control."""
+"""Gestures on the label of a control: a double click sets a value back, a drag changes it."""
 
 from typing import Any
 
 from imgui_bundle import imgui
 
 from glrt.view.controls import Control
+from glrt.view.widgets.scrub import SCRUB, can_scrub
 
 
 def can_reset(control: Control) -> bool:
@@ -12,23 +13,31 @@ def can_reset(control: Control) -> bool:
     return control.default is not None and control.kind != "switch"
 
 
-def reset_or(drawn: tuple[bool, Any], control: Control, is_label: bool) -> tuple[bool, Any]:
-    """The default after a double click on a label or slider; else what was drawn.
+def by_gestures(
+    drawn: tuple[bool, Any], control: Control, widget: int, value: Any, is_label: bool
+) -> tuple[bool, Any]:
+    """Return the result of a gesture on the item drawn last; without one, what was drawn.
 
-    On other widgets a double click has a meaning of its own, such as to type a number.
+    A double click on a label or a slider sets the default; on other widgets it has a meaning of
+    its own, such as to type a number. A drag on a label changes the value. `widget` is the id of
+    the item, `is_label` whether the mouse is over its label, if it is over the item.
     """
     is_slider = control.slider is not None and control.kind in ("integer", "number")
     is_meant = can_reset(control) and (is_label or is_slider) and imgui.is_item_hovered()
-    if not is_meant or not imgui.is_mouse_double_clicked(0):
-        return drawn
-    imgui.internal.clear_active_id()  # else the slider goes back to the mouse
-    return True, control.default
+    if is_meant and imgui.is_mouse_double_clicked(0):
+        imgui.internal.clear_active_id()  # else the slider goes back to the mouse
+        SCRUB.stop()
+        return True, control.default
+    moved = SCRUB.follow(control, widget, value, is_label)
+    return drawn if moved is None else (True, moved)
 
 
-def default_text(control: Control) -> list[str]:
-    """A line of the tooltip about the default; none if there is none."""
+def gesture_texts(control: Control) -> list[str]:
+    """Return lines of the tooltip about these gestures; none for a control that has none."""
+    dragged = ["A drag on the label changes it"] if can_scrub(control) else []
     if not can_reset(control):
-        return []
+        return dragged
     parts = control.default if isinstance(control.default, tuple) else (control.default,)
     told = ", ".join(f"{part:.3g}" if isinstance(part, float) else str(part) for part in parts)
-    return [f"A double click sets the default: {told}"]
+    sets = "goes back to the scene's value" if control.is_of_scene else "sets the default"
+    return [*dragged, f"A double click {sets}: {told}"]

@@ -1,4 +1,4 @@
-"""Whether a scene has edits that are not saved."""
+"""Differences between a scene and the one in its file."""
 
 from glrt.core.memo import kept_for_the_same
 from glrt.scene.scene import Scene
@@ -9,15 +9,15 @@ EDITED = ("objects", "materials", "media", "medium", "lights", "background", "su
 
 
 @kept_for_the_same
-def is_other(written: Scene, scene: Scene, settings: Settings) -> bool:
-    """Whether a save would write another scene, camera or settings than the file has."""
-    whole = scene_with(scene, settings)
-    return differs(written, scene) or any(
-        getattr(written, part) != getattr(whole, part) for part in ("camera", "render")
-    )
+def is_edited(saved: Scene, scene: Scene) -> bool:
+    """Whether edits of the scene are unsaved; its camera and settings do not count."""
+    return any(getattr(saved, part) != getattr(scene, part) for part in EDITED)
 
 
 @kept_for_the_same
-def differs(saved: Scene, scene: Scene) -> bool:
-    """Whether a scene has edits of parts that a user would miss; a camera is no such part."""
-    return any(getattr(saved, part) != getattr(scene, part) for part in EDITED)
+def is_other(written: Scene, scene: Scene, settings: Settings) -> bool:
+    """Whether scene, camera or settings differ from the scene that is in the file."""
+    whole = scene_with(scene, settings)
+    return is_edited(written, scene) or any(
+        getattr(written, part) != getattr(whole, part) for part in ("camera", "render")
+    )

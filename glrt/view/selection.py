@@ -1,0 +1,99 @@
+"""The selected object of the window, and the edits of objects by buttons and keys."""
+
+import math
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+
+from glrt.scene.scene import Scene
+from glrt.scene.shapes.kinds import Shape
+from glrt.view.camera_moves import CameraMoves
+from glrt.view.controls import replaced
+from glrt.view.edits.locks import check_locks
+from glrt.view.edits.new_objects import two_digits, with_model, with_new_near
+from glrt.view.edits.scene_edits import with_duplicate, with_object, without_object
+from glrt.view.viewport import orbit
+from glrt.view.viewport.pick import Picked, pick
+from glrt.view.viewport.transform import clear_of
+
+SIZE = 0.07  # half the size of a new object, in distances from the camera to the pivot
+
+
+class Selection(CameraMoves):
+    """Selects, adds, copies, deletes, hides and locks objects of a session."""
+
+    selected: int | None  # number of the selected object
+    is_to_be_seen: bool  # whether the panel is to scroll to the selected object
+
+    def edit_scene(self, gesture: str, make: Callable[[Scene], Scene]) -> None:
+        """Replace the scene by the result of `make`; an invalid scene is reported, not raised.
+
+        So is a scene in which a locked object has changed.
+        """
+        with self.messages.reporting():
+            scene = make(self.session.scene)
+            check_locks(self.session.state.locked, self.session.scene, scene)
+            self.session.edit(scene, gesture)
+
+    @property
+    def selected_shape(self) -> Shape | None:
+        """The selected object; None if nothing is selected or the object no longer exists."""
+        objects = self.session.scene.objects
+        index = self.selected
+        return objects[index] if index is not None and index < len(objects) else None
+
+    @property
+    def is_locked(self) -> bool:
+        """Whether the selected object is locked against edits."""
+        return self.selected in self.session.state.locked
+
+    def select(self, index: int | None) -> None:
+        """Select an object by its number, or nothing; the panel scrolls to the object."""
+        self.selected, self.is_to_be_seen = index, index is not None
+
+    def show_object(self, index: int, wanted: bool) -> None:
+        """Show a hidden object or hide it, also if it is locked."""
+        with self.messages.reporting():
+            shape = replaced(self.session.scene.objects[index], hidden=not wanted)
+            self.session.edit(with_object(self.session.scene, index, shape))
+
+    def add(self, kind: str) -> None:
+        """Add an object of a kind at the pivot or on what is there, and select it."""
+        self._add(lambda scene: with_new_near(scene, kind, self.pivot, SIZE * self.reach))
+
+    def add_model(self, path: Path) -> None:
+        """Add the meshes of a model at the pivot, and select the first."""
+        self._add(lambda scene: with_model(scene, path, self.pivot, 2 * SIZE * self.reach))
+
+    def duplicate(self) -> None:
+        """Add a copy of the selected object above or below it, and select the copy."""
+        if (shape := self.selected_shape) and self.selected is not None:
+            copy = clear_of(shape, self.pivot, two_digits(SIZE * self.reach))
+            self._add(partial(with_duplicate, index=self.selected, moved=copy))
+
+    def _add(self, make: Callable[[Scene], Scene]) -> None:
+        count = len(self.session.scene.objects)
+        self.edit_scene("", make)
+        if len(self.session.scene.objects) > count:
+            self.select(count)
+
+    def delete(self) -> None:
+        """Delete the selected object, unless it is locked."""
+        if self.selected_shape and self.selected is not None:
+            count = len(self.session.scene.objects)
+            self.edit_scene("", partial(without_object, index=self.selected))
+            if len(self.session.scene.objects) < count:
+                self.selected = None
+
+    def pick(self, x: float, y: float) -> Picked | None:
+        """Return the object under a point of the picture, (0, 0) upper left to (1, 1), or None."""
+        settings = self.session.settings
+        return pick(self.session.scene, settings.width / settings.height, x, y)
+
+    def frame_selected(self) -> None:
+        """Look at the selected object so that it fills the frame, and make it the pivot."""
+        if shape := self.selected_shape:
+            with self.messages.reporting():
+                reach = shape.reach if math.isfinite(shape.reach) else 1.0
+                self.place(orbit.framed(self.camera, shape.middle, reach))
+                self.pivot = shape.middle
