@@ -16,8 +16,8 @@ from glrt.view.compared_picture import Pair
 from glrt.view.edits.scene_edits import found_again
 from glrt.view.edits.state_differences import change_text
 from glrt.view.file_watch import Watch
-from glrt.view.files import Files, nothing
-from glrt.view.messages import Messages, Question
+from glrt.view.files import Files
+from glrt.view.messages import Messages, Question, nothing
 from glrt.view.selection import Selection
 from glrt.view.state.error_history import Progress
 from glrt.view.state.frame_budget import FrameBudget

@@ -24,7 +24,7 @@ from glrt.view.edits.sky_images import is_sky, with_sky_image
 from glrt.view.edits.unsaved import is_edited, is_other
 from glrt.view.file_dialogs import PICTURE, SCENE, SCENES, Dialogs
 from glrt.view.file_watch import Watch, watch_for
-from glrt.view.messages import Messages
+from glrt.view.messages import Messages, nothing
 from glrt.view.state.recent import load_recent, save_recent, with_opened
 from glrt.view.state.session import Session
 
@@ -213,7 +213,7 @@ class Files:
         self.messages.report(f"Saved {_where(file)}{lost}")
         return True
 
-    def save_again(self, then: Then = lambda: None) -> None:
+    def save_again(self, then: Then = nothing) -> None:
         """Save the scene to its own file, or ask for a name if it has none; then call `then`."""
         if self.watch:
             if self.save_scene(self.source):
@@ -221,7 +221,7 @@ class Files:
         else:
             self.browse_scene(then)
 
-    def browse_scene(self, then: Then = lambda: None) -> None:
+    def browse_scene(self, then: Then = nothing) -> None:
         """Show a dialog to choose where the scene is saved; then call `then`."""
 
         def use(path: str, is_agreed: bool) -> None:
@@ -229,7 +229,7 @@ class Files:
 
         self.dialogs.ask_save("Save the scene", self.scene_path, SCENE, ".toml", use)
 
-    def ask_save_scene(self, path: str, is_agreed: bool = False, then: Then = lambda: None) -> None:
+    def ask_save_scene(self, path: str, is_agreed: bool = False, then: Then = nothing) -> None:
         """Save the scene under a name; ask before a file other than its own is replaced."""
         is_own = bool(self.watch) and Path(path).absolute() == Path(self.source).absolute()
         self._unless_there(path, is_own or is_agreed, lambda: self.save_scene(path) and then())

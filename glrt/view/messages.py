@@ -12,6 +12,10 @@ from glrt.view.state.session import Session
 SHOWN = 5.0  # seconds for which a finished action is shown
 
 
+def nothing() -> None:
+    """Do nothing."""
+
+
 @dataclass(frozen=True)
 class Question:
     """Question of a popup; `answers` maps texts of buttons to actions, and Escape cancels."""

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
-from glrt.view.files import nothing
+from glrt.view.messages import nothing
 
 _BEGINS, _HOLDS, _ELSEWHERE, _SCATTERED = range(4)  # how well a word fits; 0 is best
 

@@ -3,7 +3,7 @@
 from imgui_bundle import ImVec2, hello_imgui, imgui
 
 from glrt.view.app import App
-from glrt.view.files import nothing
+from glrt.view.messages import nothing
 
 
 def draw_question(app: App) -> None:
