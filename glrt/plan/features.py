@@ -18,12 +18,8 @@ from glrt.settings import Settings
 
 NEAR = 8  # pixels around, whose kept points a pixel reuses
 NO_TREE: dict[str, bool | int] = {"TREE_STACK": 0}  # known once the BVH is built
-NO_LAYERS: dict[str, bool | int] = {
-    "LAYERS": 0,
-    "BY_LENGTH": False,
-    "BACKGROUND_LAYER": 0,
-    "SUN_LAYER": 0,
-}
+NO_LAYERS: dict[str, bool | int] = {"LAYERS": 0, "BY_LENGTH": False}
+NO_LAYERS |= {"BACKGROUND_LAYER": 0, "SUN_LAYER": 0}
 NO_COUNTS = {"COUNT_RAYS": False, "COUNT_BOUNCES": False, "LIGHT_TERMS": 0}
 PLAIN_PROBES: dict[str, bool | int] = {
     "FROM_PROBES": False,  # paths start at probes
@@ -217,6 +213,7 @@ class Needs:
     model: int = _row(  # number of a classic lighting model; 0: paths are traced
         lambda it: it.model, "lighting model", reasons.model, most=0
     )
+    own_phong: bool = _row(lambda it: it.own_phong, "own constants", reasons.phong, most=False)
     has_probes: bool = _row(  # indirect light from a grid of probes
         lambda it: it.traits.has_probes, "probes", most=False
     )
