@@ -53,6 +53,23 @@ EXPLANATIONS: dict[str, str] = {
         "In a closed room that shines with Le everywhere and has the albedo a, a picture shows "
         "Le (1 - a^(B+1)) / (1 - a) instead of Le / (1 - a)."
     ),
+    "ambient": (
+        "The radiance that a white surface has everywhere, I_a: it stands for all indirect light, "
+        "and is the same in each corner. A surface of colour C sends I_a C."
+    ),
+    "diffuse": (
+        "The share k_d of its colour that a surface reflects evenly: a lamp of irradiance E adds "
+        "k_d C E (N.L) / pi, N.L the cosine between normal and lamp."
+    ),
+    "specular": (
+        "The strength k_s of highlights: a lamp adds k_s E (N.H)^n / pi, H halfway between lamp "
+        "and eye (blinn), or k_s E (R.V)^n / pi, R the mirrored direction (phong). Above 1 - k_d "
+        "a surface may send more light than it gets."
+    ),
+    "exponent": (
+        "The sharpness n of highlights: they are as wide as cos^n is. N.H falls with half the "
+        "angle of R.V, so phong needs a quarter of the exponent of blinn for the same width."
+    ),
     "intensity": (
         "Light adds up: a picture is the sum of those of its light groups, L = sum of w L(group). "
         "So the film keeps each group apart, and another intensity w is another weight, not "
