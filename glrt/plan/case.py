@@ -94,6 +94,12 @@ class Case:
         return self.resamples and reuses_points(self.settings)
 
     @property
+    def takes_turns(self) -> bool:
+        """Whether only some of the live probes are updated at a time."""
+        probes = self.scene.probes
+        return self.traits.has_probes and probes is not None and probes.per_update < 1
+
+    @property
     def own_phong(self) -> bool:
         """Whether constants of the scene replace those of materials in Phong's model."""
         phong = self.settings.phong

@@ -217,6 +217,7 @@ class Needs:
     has_probes: bool = _row(  # indirect light from a grid of probes
         lambda it: it.traits.has_probes, "probes", most=False
     )
+    some_probes: bool = _row(lambda it: it.takes_turns, "probes in turn", reasons.turns, most=False)
     final_gather: bool = _row(  # traces paths to one more matte surface before it reads probes
         lambda it: it.traits.gathers, "final gather", most=False
     )

@@ -188,6 +188,12 @@ def model(case: Case) -> str:
     return f"{by_method(case)}{' traces paths' if traces else ', which leaves light out'}"
 
 
+def turns(case: Case) -> str:
+    """Return the share of the live probes that one picture updates."""
+    probes = case.scene.probes
+    return f"{by_method(case)}, probes.per_update {probes.per_update if probes else 1:g}"
+
+
 def phong(case: Case) -> str:
     """Return the constants that the scene gives in place of those of materials."""
     given = case.settings.phong

@@ -28,6 +28,6 @@ def test_what_needs_no_explanation_has_none() -> None:
 
 
 def test_each_explanation_is_of_a_control() -> None:
-    named = {*panel.SETTINGS, "intensity", "emission", "ior"}
+    named = {*panel.SETTINGS, "intensity", "emission", "ior", panel.PER_UPDATE.name}
     named |= {control.name for model in (Metal, Phong) for control in controls_of(model)}
     assert EXPLANATIONS.keys() <= named

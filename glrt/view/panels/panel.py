@@ -11,6 +11,7 @@ from glrt.phong import Phong
 from glrt.plan.methods import METHODS
 from glrt.plan.plan import MOST_LAYERS
 from glrt.scene.camera import Camera
+from glrt.scene.probes import Probes
 from glrt.scene.scene import Scene
 from glrt.scene.warnings import cautions
 from glrt.settings import Cost, Settings
@@ -37,6 +38,7 @@ from glrt.view.widgets.steady_widget import ANCHOR
 SETTINGS = {c.name: c for c in controls_of(Settings, leave_out=("crop", "denoise"))}
 PATHS = ("method", "sampler", "roulette", "seed", "caustics")
 PROBES = ("probes",)  # shown if the method has probes
+PER_UPDATE = next(c for c in controls_of(Probes) if c.name == "per_update")  # with `probes`
 REUSE = ("reuse", "unbiased")  # shown if the method resamples points
 PARTICLES = ("particles", "aimed", "linked")  # shown if caustics are on
 PHONG = {c.name: c for c in controls_of(Phong)}  # shown if the method takes these constants
@@ -133,10 +135,25 @@ def _paths(app: App) -> None:
         _constants(session)
     if METHODS[session.settings.method].has_probes:
         _settings(app, PROBES)
+        _turns(app)
     if METHODS[session.settings.method].resamples:
         _settings(app, REUSE)
     if session.settings.caustics == "on":
         _settings(app, PARTICLES)
+
+
+def _turns(app: App) -> None:
+    """Draw the share of live probes that a picture updates."""
+    probes = app.session.scene.probes or Probes()
+    is_all = probes.per_update == 1
+    cost, reach = (Cost.RECOMPILE, None) if is_all else (Cost.RESTART, (0.99, Cost.RECOMPILE))
+    share = edited(PER_UPDATE.costing(cost, reach), probes.per_update)
+    if share is not None:
+        app.edit_scene("per update", partial(_with_share, per_update=share))
+
+
+def _with_share(scene: Scene, per_update: float) -> Scene:
+    return replaced(scene, probes=replaced(scene.probes or Probes(), per_update=per_update))
 
 
 def _constants(session: Session) -> None:

@@ -31,6 +31,11 @@ EXPLANATIONS: dict[str, str] = {
         "eight around it, E = sum(w E) / sum(w), by nearness and by whether they see it. 16 "
         "samples share a set of probes, which is warmed up first."
     ),
+    "per_update": (
+        "While edits follow one another, a picture updates this share s of the probes, in turn. An "
+        "update takes s of the rays, and light lags 1 / s times as long. At rest, all probes are "
+        "warmed up."
+    ),
     "reuse": (
         "One of the points y_i is kept, with a chance of w_i / sum(w), where w_i = m_i P(y_i) / "
         "p(y_i). It counts L(y) sum(w) / P(y), so the mean stays. P is the light that y would "
