@@ -3,7 +3,8 @@
 vec3 eval_shading(Vertex vertex, vec3 wi) {
     if (!OWN_PHONG) return eval_local(vertex, wi);
     Shading shading = phong_shading(own_phong(), vertex, wi);
-    return shading.base + shading.gloss;
+    vec3 value = shading.base + shading.gloss;
+    return value;
 }
 
 struct PointLamp {
