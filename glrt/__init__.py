@@ -6,7 +6,10 @@ Modules and packages, each importing only what stands above it:
 
 - core: small tools that every other package uses
 - process: signals, standard streams, time and memory of a command
+- editable: the range and cost of an edit that fields of models declare
+- phong: constants of Phong's model
 - settings: every render setting
+- setting_options: these settings as keywords of functions
 - gpu: OpenGL; knows no scene
 - scene: frozen models of what is rendered, and scene files
 - plan: which kernel a scene and its settings need

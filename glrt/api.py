@@ -9,7 +9,8 @@ from glrt.rendering.paths.replay import Selection, pixel_paths
 from glrt.rendering.paths.values import PixelPaths
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
-from glrt.settings import FrameOptions, settings_for
+from glrt.setting_options import FrameOptions
+from glrt.settings import settings_for
 
 
 def render(

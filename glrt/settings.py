@@ -3,14 +3,16 @@
 The command line, the panel, the kernel and the `[render]` table of scenes use these models.
 """
 
-from dataclasses import dataclass
-from enum import StrEnum
-from typing import Annotated, Any, Literal, Self, TypedDict, get_args
+from typing import Annotated, Any, Literal, Self, get_args
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
-from pydantic.fields import FieldInfo
+from pydantic import Field, ValidationError, field_validator, model_validator
 
 from glrt.core.errors import UsageError
+from glrt.editable import Cost as Cost
+from glrt.editable import Editable as Editable
+from glrt.editable import Frozen as Frozen
+from glrt.editable import editable_of as editable_of
+from glrt.phong import Phong
 
 Method = Literal[
     "naive",
@@ -40,35 +42,6 @@ TERMS: tuple[Term, ...] = get_args(Term)  # AOVs that are parts of the picture's
 OF_PATHS: tuple[Aov, ...] = ("bounces", *TERMS)  # AOVs of whole paths, not of first surfaces
 
 
-class Cost(StrEnum):
-    """The effect of a changed setting on a running render."""
-
-    FREE = "free"  # only the display changes
-    RELIGHT = "relight"  # weights of film layers change: no sample is lost
-    RESTART = "restart"  # accumulation starts again
-    RECOMPILE = "recompile"  # another kernel is compiled
-
-
-@dataclass(frozen=True)
-class Editable:
-    """Data that a widget needs for a field in addition to its limits, stored in the annotation."""
-
-    cost: Cost = Cost.RESTART  # effect of an edit
-    unit: str = ""
-    slider: tuple[float, float] | None = None  # a useful range for dragging
-
-
-def editable_of(field: FieldInfo) -> Editable:
-    """Return the Editable in the annotation of a model's field, or a default one."""
-    return next((part for part in field.metadata if isinstance(part, Editable)), Editable())
-
-
-class Frozen(BaseModel):
-    """An immutable value that rejects unknown keys, infinities and NaN."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
-
-
 class RenderSettings(Frozen):
     """Default settings of a scene: its `[render]` table."""
 
@@ -93,6 +66,11 @@ class RenderSettings(Frozen):
         "direct light as in mis, indirect light from a grid of probes; gather: as ddgi, but paths "
         "are traced to one more matte surface (final gathering); resampled: as gather, but the "
         "first matte surface is lit by one resampled point",
+    )
+    phong: Annotated[Phong | None, Editable(Cost.RESTART)] = Field(
+        None,
+        description="constants of methods phong and blinn for all surfaces, in a table "
+        "[render.phong]; default: materials have theirs",
     )
 
 
@@ -222,36 +200,6 @@ class Settings(RenderSettings):
                 f"the frame of {self.width} x {self.height} pixels"
             )
         return self
-
-
-class FrameOptions(TypedDict, total=False):
-    """The fields of Settings except `samples`, as keywords for editors; a test keeps both alike."""
-
-    width: int
-    height: int
-    bounces: int
-    method: Method
-    crop: tuple[int, int, int, int] | None
-    sampler: Sampler
-    roulette: bool
-    caustics: Caustics
-    particles: float
-    aimed: float
-    linked: float
-    probes: int
-    reuse: Reuse
-    unbiased: bool
-    seed: int
-    exposure: float
-    tonemap: ToneMap
-    aov: tuple[Aov, ...]
-    denoise: Denoise
-
-
-class SettingOptions(FrameOptions, total=False):
-    """All fields of Settings, as keywords for editors."""
-
-    samples: int
 
 
 def settings_for(base: RenderSettings, **overrides: Any) -> Settings:

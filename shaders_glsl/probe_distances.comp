@@ -9,6 +9,7 @@ layout(local_size_x = 64) in;
 #include "probes/grid.glsl"
 #include "structs/probes.glsl"
 #include "probes/blend.glsl"
+#include "probes/turns.glsl"
 
 layout(std140) uniform ProbeBlock {
     ProbeUpdate update;
@@ -35,7 +36,7 @@ void blend_distances(int probe, ivec2 texel) {
 
 void main() {
     int index = 64 * (frame.first_tile + int(gl_WorkGroupID.x)) + int(gl_LocalInvocationIndex);
-    int probe = index / TEXELS;
+    int probe = probe_in_turn(update, index / TEXELS);
     int texel = index % TEXELS;
     if (probe < frame.probe_count) blend_distances(probe, ivec2(texel % (DISTANCE_SIDE + 2), texel / (DISTANCE_SIDE + 2)));
 }

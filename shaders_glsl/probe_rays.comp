@@ -6,6 +6,7 @@ layout(local_size_x = 64) in;
 #include "trace.glsl"
 #include "structs/probes.glsl"
 #include "probes/solids.glsl"
+#include "probes/turns.glsl"
 
 layout(std140) uniform ProbeBlock {
     ProbeUpdate update;
@@ -30,7 +31,7 @@ vec4 light_along(Ray ray, inout Sampler rng) {
 
 void main() {
     int index = 64 * (frame.first_tile + int(gl_WorkGroupID.x)) + int(gl_LocalInvocationIndex);
-    int probe = index / update.rays;
+    int probe = probe_in_turn(update, index / update.rays);
     int number = index % update.rays;
     if (probe >= frame.probe_count) return;
     vec3 stand = middle_of_cell(probe) + place_of_probe(probe).xyz;

@@ -39,6 +39,8 @@
 #include "film/layers.glsl"
 #include "integrators/camera.glsl"
 #include "integrators/classic.glsl"
+#include "integrators/phong.glsl"
+#include "integrators/point_lamps.glsl"
 #include "integrators/glasses.glsl"
 #include "integrators/shading_normals.glsl"
 #include "integrators/glossy_turns.glsl"

@@ -7,6 +7,7 @@ from typing import Any
 from pydantic import BaseModel
 from reference_markdown import GENERATED, table
 
+from glrt.phong import Phong
 from glrt.scene.animation.tracks import Animation, Track
 from glrt.scene.camera import Camera
 from glrt.scene.density import Density
@@ -29,6 +30,12 @@ NOTES = {  # on a type of material or a kind of shape
 SCENE_TABLES: list[tuple[str, str, type[BaseModel]]] = [
     ("[camera]", "Required.", Camera),
     ("[render]", "Optional. Options of the command line override it.", RenderSettings),
+    (
+        "[render.phong]",
+        "Optional. [Constants for all surfaces]"
+        "(../explanation/methods.md#phongs-constants-for-all-surfaces).",
+        Phong,
+    ),
     ("[background]", "Optional; black by default.", Background),
     (
         "sky of [background]",

@@ -20,6 +20,7 @@ _AUTO = {  # what a measurement chooses, by option
     "--time",
     "caustics": "as a short pilot finds it cheaper, for long renders of scenes with glass or metal",
 }
+_OF_FILES = ("phong",)  # settings without an option: tables of scene files
 _LEFT_OPEN = ("caustics",)  # options whose default is AUTO
 SCENE = (
     "a scene file, the name of a scene that comes with glrt, a picture rendered by glrt, or - for "
@@ -143,6 +144,8 @@ def add_settings(parser: argparse.ArgumentParser, has_auto: bool = False) -> Non
     """
     group = parser.add_argument_group("settings")
     for name, field in Settings.model_fields.items():
+        if name in _OF_FILES:
+            continue
         unit = editable_of(field).unit
         options = _options(name, field.annotation, unit)
         wish = "the scene's" if name in RenderSettings.model_fields else _shown(field.default)

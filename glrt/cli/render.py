@@ -110,7 +110,8 @@ def run(arguments: argparse.Namespace) -> int:
 def _run(arguments: argparse.Namespace) -> int:
     start = time.perf_counter()
     wanted = order(arguments)
-    wanted = replace(wanted, scene=frame_of(wanted.scene, arguments.frame))
+    scene, settings = frame_of(wanted.scene, wanted.settings, arguments.frame)
+    wanted = replace(wanted, scene=scene, settings=settings)
     load = time.perf_counter() - start
     for output in arguments.outputs:
         check_writable(output)

@@ -22,6 +22,7 @@ from glrt.process.command import since_start
 from glrt.rendering.pipelines import Tier
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.stopping import Limits, samples_limit
+from glrt.scene.frames import with_phong_of
 from glrt.scene.instancing import Apart
 from glrt.scene.loading.scene_files import with_files_of
 from glrt.scene.scene import Scene, with_lights
@@ -59,9 +60,15 @@ def order(arguments: argparse.Namespace) -> Order:
     return _in_parts(arguments, _limited(arguments, found))
 
 
-def frame_of(scene: Scene, number: int | None) -> Scene:
-    """Return a frame of a scene as a still; None: with the values that it was loaded with."""
-    return scene.still if number is None else scene.at_frame(number)
+def frame_of(scene: Scene, settings: Settings, number: int | None) -> tuple[Scene, Settings]:
+    """Return a frame of a scene as a still, with its settings.
+
+    None: with the values that it was loaded with.
+    """
+    if number is None:
+        return scene.still, settings
+    still = scene.at_frame(number)
+    return still, with_phong_of(still, scene.moved, settings)
 
 
 def _decisions_kept(arguments: argparse.Namespace, recipe: Recipe | None) -> dict[str, str]:
@@ -210,8 +217,8 @@ def _order_to_go_on(arguments: argparse.Namespace) -> Order:
         settings = settings_for(base, **settings_given(arguments))
         kept = _decisions_kept(arguments, recipe)
         order = _limited(arguments, Order(scene, settings, Limits(0), image, decisions=kept))
-        update = {"scene": frame_of(scene, arguments.frame), "settings": order.settings}
-        fitting(image, recipe.model_copy(update=update))
+        still, of_frame = frame_of(scene, order.settings, arguments.frame)
+        fitting(image, recipe.model_copy(update={"scene": still, "settings": of_frame}))
         if recipe.partition:
             return _part_to_go_on(order, recipe.partition)
         _check_samples(arguments, image.samples, order.limits)

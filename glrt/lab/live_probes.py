@@ -19,6 +19,7 @@ SAMPLES = 256
 UPDATES = (1, 3, 10, 23, 50, 100)  # after the step
 DIM = 0.25
 DARK, BRIGHT = 0.005, 0.8  # albedos: nearly all light has one bounce, or many
+SHARE = 0.25  # of the probes that one update is about
 LATE = 1.02  # times the share that is to be left
 
 SIZES = (1e-4, 1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0, 1e3, 1e4)
@@ -35,6 +36,7 @@ def step(lab: Lab) -> Sweep:
         others={
             f"over many, albedo {BRIGHT:g}": _left(lab, BRIGHT, HYSTERESIS),
             "over one bounce, hysteresis 0.9": _left(lab, DARK, 0.9),
+            f"over one bounce, {SHARE:g} of the probes": _left(lab, DARK, HYSTERESIS, SHARE),
         },
         promise=f"at most {LATE:g} times {HYSTERESIS:g}^n: half after 23",
         bound=[LATE * HYSTERESIS**n for n in UPDATES],
@@ -61,9 +63,10 @@ def scale(lab: Lab) -> Sweep:
     )
 
 
-def _left(lab: Lab, albedo: float, hysteresis: float) -> list[float]:
+def _left(lab: Lab, albedo: float, hysteresis: float, share: float = 1.0) -> list[float]:
     """The share of a dimming to DIM that live probes still miss, in a closed room that emits."""
-    scene = scene_of([sphere([0, 0, 0], 1, "wall")], {"wall": lamp(1.0, albedo)})
+    room, materials = [sphere([0, 0, 0], 1, "wall")], {"wall": lamp(1.0, albedo)}
+    scene = scene_of(room, materials, probes={"per_update": share})
     ways = {**SETTINGS, "probes": 2, "bounces": 3, "roulette": False}
     settings = settings_for(scene.render, **ways)
     frames = light_step(scene, UPDATES[-1] + 1, 1, DIM)

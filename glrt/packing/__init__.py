@@ -18,6 +18,7 @@ Modules, each importing only what stands above it:
 - media: media and the bounds of volumes
 - particles: data for particles from lamps
 - probes: data for probes
+- phong: constants of Phong's model
 - scene_arrays: all arrays of a scene, and the frame block
 - texel_texture: texels of all textures
 - image_texture: an image as a texture

@@ -1,5 +1,9 @@
 """Kernel data for probes: their grid as fields of the frame, and the block of an update."""
 
+from itertools import count
+from math import gcd
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -72,12 +76,49 @@ def seeds(*numbers: int) -> NDArray[np.uint32]:
     return np.asarray(np.random.SeedSequence(numbers).generate_state(4), np.uint32)
 
 
+class Turn(NamedTuple):
+    """The probes of one update: a run of an order of all probes, which goes on at its beginning."""
+
+    probes: int  # in the grid
+    first: int  # place in the order
+    length: int
+
+    @property
+    def stride(self) -> int:
+        """Step from probe to probe in the order, near the golden ratio: it spreads over the grid.
+
+        It has no factor in common with the number of probes, so that each stands once in the order.
+        """
+        near = max(round(_TURN * self.probes), 1)
+        return next(n for n in count(near) if gcd(n, self.probes) == 1)
+
+    @property
+    def numbers(self) -> NDArray[np.int64]:
+        """The numbers of the probes, (length,)."""
+        return (self.first + np.arange(self.length)) * self.stride % self.probes
+
+    @property
+    def next(self) -> int:
+        """The place in the order where the next update begins."""
+        return (self.first + self.length) % self.probes
+
+
+def all_of(probes: int) -> Turn:
+    """Return an update of all probes."""
+    return Turn(probes, 0, probes)
+
+
 def update_block(
-    directions: Array, purpose: int, number: int = 0, seed: int = 0, kept: float = 0.0
+    directions: Array,
+    purpose: int,
+    probes: Turn,
+    number: int = 0,
+    seed: int = 0,
+    kept: float = 0.0,
 ) -> bytes:
     """Return the bytes of the block of an update by rays into these directions, (n, 3)."""
-    fields: dict[str, object] = dict.fromkeys(("spare_a", "spare_b", "spare_c"), 0)
-    fields |= {"rays": len(directions), "number": number, "seed": seed}
+    fields: dict[str, object] = {"rays": len(directions), "number": number, "seed": seed}
+    fields |= {"first": probes.first, "count": probes.length, "stride": probes.stride}
     rows = np.zeros((MOST_RAYS, 4), np.float32)
     rows[: len(directions), :3] = directions
     update = record(_UPDATE, {**fields, "purpose": purpose, "kept": kept})

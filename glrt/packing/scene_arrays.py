@@ -15,6 +15,7 @@ from glrt.packing.material_details import pack_conductors, pack_facets
 from glrt.packing.materials import pack_emitters, pack_materials
 from glrt.packing.media import medium_row, pack_media
 from glrt.packing.particles import particle_fields
+from glrt.packing.phong import phong_fields
 from glrt.packing.probes import probe_fields
 from glrt.packing.scene_tree import SceneTree, frame_fields, pack_tree
 from glrt.packing.shapes import NUMBERED, Placing, in_order, pack_shapes, unit
@@ -128,6 +129,7 @@ def pack_frame(
         "sun_radiance": scene.sun_radiance,
         **particle_fields(plan),
         **probe_fields(plan.grid, scene.camera),
+        **phong_fields(settings.phong),
         "camera_absorption": glass.absorption,
         "camera_counts": glass.counts,
         "sky_density": sky_density,

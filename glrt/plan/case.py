@@ -103,12 +103,24 @@ class Case:
         return self.resamples and reuses_points(self.settings)
 
     @property
+    def takes_turns(self) -> bool:
+        """Whether only some of the live probes are updated at a time."""
+        probes = self.scene.probes
+        return self.traits.has_probes and probes is not None and probes.per_update < 1
+
+    @property
+    def own_phong(self) -> bool:
+        """Whether constants of the scene replace those of materials in Phong's model."""
+        phong = self.settings.phong
+        return self.traits.has_constants and phong is not None and phong.is_given
+
+    @property
     def model(self) -> int:
         """Number of the method's lighting model; 0 for path tracing.
 
-        Without rough metal, `blinn` is the same model as `phong`: they differ only in highlights.
+        Without highlights, `blinn` is the same model as `phong`.
         """
-        is_rough = any(metal.alpha > 0 for metal in self.metals)
+        is_rough = any(metal.alpha > 0 for metal in self.metals) or self.own_phong
         is_phong = self.settings.method == "blinn" and not is_rough
         return METHODS["phong"].model if is_phong else self.traits.model
 

@@ -214,9 +214,11 @@ class Needs:
     model: int = _row(  # number of a classic lighting model; 0: paths are traced
         lambda it: it.model, "lighting model", reasons.model, most=0
     )
+    own_phong: bool = _row(lambda it: it.own_phong, "own constants", reasons.phong, most=False)
     has_probes: bool = _row(  # indirect light from a grid of probes
         lambda it: it.traits.has_probes, "probes", most=False
     )
+    some_probes: bool = _row(lambda it: it.takes_turns, "probes in turn", reasons.turns, most=False)
     final_gather: bool = _row(  # traces paths to one more matte surface before it reads probes
         lambda it: it.traits.gathers, "final gather", most=False
     )

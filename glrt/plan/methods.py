@@ -23,6 +23,7 @@ class Traits:
     chooses_lights: bool = False  # chooses one lamp at each point, by flux and nearness
     follows: bool = True  # follows light over mirrors and through glass
     splits: bool = False  # follows both rays at glass, as a tree, not one at random
+    has_constants: bool = False  # takes constants for all surfaces, [render.phong]
     has_lens: bool = True
     has_rough: bool = True  # renders rough metal and glass; else they are smooth
     has_probes: bool = False  # takes indirect light from a grid of probes
@@ -44,8 +45,8 @@ METHODS: dict[str, Traits] = {
     "naive": Traits(),
     "nee": Traits(samples_lights=True, chooses_lights=True),
     "mis": Traits(samples_lights=True, weights_both=True, chooses_lights=True),
-    "phong": Traits(model=1, follows=False, has_lens=False),
-    "blinn": Traits(model=2, follows=False, has_lens=False),
+    "phong": Traits(model=1, follows=False, has_constants=True, has_lens=False),
+    "blinn": Traits(model=2, follows=False, has_constants=True, has_lens=False),
     "whitted": Traits(model=3, has_lens=False, has_rough=False),
     "whitted_tree": Traits(model=5, splits=True, has_lens=False, has_rough=False),
     "cook": Traits(model=4, chooses_lights=True),
@@ -82,3 +83,9 @@ def depth_of(settings: RenderSettings) -> int:
 def reuses_points(settings: Settings) -> bool:
     """Return whether a sample reuses the points that the previous one kept."""
     return METHODS[settings.method].resamples and settings.reuse != "none"
+
+
+def has_ambient(settings: Settings) -> bool:
+    """Return whether surfaces send ambient light of their own, which belongs to no lamp."""
+    phong = settings.phong if METHODS[settings.method].has_constants else None
+    return phong is not None and phong.ambient is not None

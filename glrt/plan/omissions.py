@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from glrt.plan.facts import SceneFacts
-from glrt.plan.methods import CLASSIC, METHODS, reuses_points
+from glrt.plan.methods import CLASSIC, METHODS, has_ambient, reuses_points
 from glrt.plan.probe_grid import grid_of
 from glrt.scene.materials.kinds import glass_of
 from glrt.scene.shapes.kinds import KINDS
@@ -17,7 +17,22 @@ def omissions(facts: SceneFacts, settings: Settings) -> list[str]:
     """
     if METHODS[settings.method].has_probes:
         return list(_blurred(facts, settings))
-    return list(_omissions(facts, settings.method)) if settings.method in CLASSIC else []
+    if settings.method not in CLASSIC:
+        return []
+    own = _phong(facts, settings)
+    return [*own, *_omissions(facts, settings.method, is_ambient=has_ambient(settings))]
+
+
+def _phong(facts: SceneFacts, settings: Settings) -> Iterator[str]:
+    """Yield what constants for all surfaces leave out of materials."""
+    phong = settings.phong
+    if phong is None or not METHODS[settings.method].has_constants:
+        return
+    kinds = {material.type for material in facts.materials.values()} - {"light"}
+    if phong.diffuse is not None and kinds - {"lambertian", "dielectric"}:
+        yield "metal and principled surfaces reflect as matte ones do"
+    if phong.specular is not None and kinds:
+        yield "highlights are white and alike on all surfaces"
 
 
 def _blurred(facts: SceneFacts, settings: Settings) -> Iterator[str]:
@@ -38,7 +53,7 @@ def _blurred(facts: SceneFacts, settings: Settings) -> Iterator[str]:
         yield f"light over mirrors or through glass onto {lit}"
 
 
-def _omissions(facts: SceneFacts, method: str) -> Iterator[str]:
+def _omissions(facts: SceneFacts, method: str, is_ambient: bool) -> Iterator[str]:
     """Yield what a classic lighting model leaves out, usually the most important first."""
     scene, materials = facts.scene, facts.materials.values()
     kinds = {material.type for material in materials}
@@ -74,7 +89,9 @@ def _omissions(facts: SceneFacts, method: str) -> Iterator[str]:
         if kind in lamps and kind not in facts.sampled:
             yield f"{kind} lamps light nothing"
     has_sky = any(map(any, scene.background_colors))
-    if has_sky and scene.background.is_pictured:
+    if has_sky and is_ambient:
+        yield "the background lights nothing"
+    elif has_sky and scene.background.is_pictured:
         yield "the image of the sky lights nothing"
     elif has_sky and len(scene.visible) > 1:
         yield "nothing hides the sky"

@@ -13,6 +13,7 @@ from glrt.gpu.glsl import read
 from glrt.gpu.structs import read_constants
 from glrt.plan.facts import SceneFacts
 from glrt.plan.features import Needs, needs_of
+from glrt.plan.methods import has_ambient
 from glrt.plan.particles import Ball
 from glrt.plan.probe_grid import Grid, grid_of
 from glrt.scene.instancing import Apart, after_moves
@@ -128,12 +129,13 @@ def prepare(
     """Plan what to trace.
 
     With layers by light group, groups that are off are traced at intensity 1, so that a lamp that
-    is turned on needs no new samples. This does not hold with terms of light.
+    is turned on needs no new samples. This holds neither with terms of light nor with ambient light
+    that belongs to no group.
     """
     facts, intensities = SceneFacts(scene, apart), scene.light_groups
     plan = Plan(facts, settings, layering, first_sample=first_sample)
     dark = [group for group in facts.emissions if intensities[group] == 0]
-    if layering != "groups" or not dark or settings.terms:
+    if layering != "groups" or not dark or settings.terms or has_ambient(settings):
         return plan
     lit = scene.model_copy(update={"lights": {**scene.lights, **dict.fromkeys(dark, 1.0)}})
     plan = replace(plan, facts=SceneFacts(lit, apart))
@@ -162,7 +164,7 @@ def _weights(film: Plan, scene: Scene, settings: Settings) -> Weights | None:
         return None
     if traced == wanted:
         return (ONE,)
-    if film.layering == "none" or _unlit(traced) != _unlit(wanted):
+    if film.layering == "none" or has_ambient(settings) or _unlit(traced) != _unlit(wanted):
         return None
     return _group_weights(SceneFacts(traced), SceneFacts(wanted))
 

@@ -22,6 +22,7 @@ SCOUTS = 128  # paths that look for the extent of a scene
 STEPS = 4  # surfaces that each of these paths meets at most
 COMMON = (10, 90)  # percentiles of the points reached; the box ends at most one such range beyond
 BACK = 1e-3  # share of a step: a path goes on so far before the surface that it met
+ROUNDING = 1e-9  # of a share times a number of probes
 LEAST_EDGE = 1e-3  # share of the longest edge of the box: flat scenes have probes above them, too
 
 
@@ -53,8 +54,15 @@ def grid_of(scene: Scene, settings: Settings) -> Grid:
     given = scene.probes
     side = settings.probes or SIDE
     counts = given.counts if given and not settings.probes else (side, side, side)
-    low, high = (np.array(given.min), np.array(given.max)) if given else extent_of(scene)
+    box = given.box if given else None
+    low, high = (np.array(box[0]), np.array(box[1])) if box else extent_of(scene)
     return Grid(low, (high - low) / counts, counts)
+
+
+def updated_at_once(scene: Scene, probes: int) -> int:
+    """Return how many of so many live probes one picture updates: the share, rounded up."""
+    share = scene.probes.per_update if scene.probes else 1.0
+    return min(math.ceil(share * probes - ROUNDING), probes)
 
 
 def extent_of(scene: Scene) -> tuple[Array, Array]:

@@ -200,6 +200,21 @@ def model(case: Case) -> str:
     return f"{by_method(case)}{' traces paths' if traces else ', which leaves light out'}"
 
 
+def turns(case: Case) -> str:
+    """Return the share of the live probes that one picture updates."""
+    probes = case.scene.probes
+    return f"{by_method(case)}, probes.per_update {probes.per_update if probes else 1:g}"
+
+
+def phong(case: Case) -> str:
+    """Return the constants that the scene gives in place of those of materials."""
+    given = case.settings.phong
+    if not given or not given.is_given:
+        return "render.phong gives no constant"
+    values = ", ".join(f"{name} {value:g}" for name, value in given if value is not None)
+    return f"{by_method(case)}, render.phong: {values}"
+
+
 def roulette(case: Case) -> str:
     """Return whether roulette is on."""
     if not case.settings.roulette:

@@ -2,6 +2,8 @@
 
 import math
 
+import numpy as np
+
 from glrt.core.errors import UsageError
 from glrt.gpu.context import Context
 from glrt.gpu.program import Resource
@@ -17,8 +19,8 @@ class ProbeSupply:
     """Supplies a set of probes for each observation, warmed up before its first sample.
 
     With a hysteresis, probes continue from the picture before instead. Each picture updates them
-    once, and they keep that fraction of their content. Such a picture depends on earlier ones, and
-    its error is unknown.
+    once, or the share `probes.per_update` in turn, and updated ones keep that fraction of their
+    content. Such a picture depends on earlier ones, and its error is unknown.
     """
 
     def __init__(
@@ -36,9 +38,10 @@ class ProbeSupply:
         if METHODS[plan.settings.method].has_probes:
             known, follows = before.tracer if before else None, hysteresis is not None
             self.tracer = ProbeTracer(context, plan, scene, known, follows)
-        self._lag = 0.0
+        self._old = np.zeros(self.tracer.grid.probes if self.tracer else 0)  # lag of each probe
         if before and self.tracer and self.tracer.goes_on:
-            self._lag = before._lag if _are_lit_alike(plan, before._plan) else 1.0
+            is_alike = _are_lit_alike(plan, before._plan)
+            self._old = before._old if is_alike else np.ones_like(self._old)
 
     @property
     def resources(self) -> dict[str, Resource]:
@@ -48,7 +51,7 @@ class ProbeSupply:
     @property
     def lag(self) -> float:
         """Share of the probes' content from before the last edit of light or objects, 0 to 1."""
-        return self._lag
+        return float(self._old.mean()) if len(self._old) else 0.0
 
     def check(self) -> None:
         """Raise UsageError if the picture depends on earlier ones and cannot be rendered again."""
@@ -72,8 +75,9 @@ class ProbeSupply:
         """Warm up the set of a sample for about `seconds`, or update live probes once."""
         if self.tracer and self.hysteresis is not None and self.tracer.is_lit:
             if self._is_due:
-                self.tracer.follow(self.hysteresis)
-                self._lag, self._is_due = self._lag * self.hysteresis, False
+                updated = self.tracer.follow(self.hysteresis)
+                self._old[updated.numbers] *= self.hysteresis
+                self._is_due = False
         elif self.tracer:
             self.tracer.work_on(sample // self._block, seconds)
 
@@ -88,6 +92,7 @@ class ProbeSupply:
 
 
 def _are_lit_alike(plan: Plan, before: Plan) -> bool:
-    """Whether two plans have equal scenes, apart from the camera, and equal bounces."""
-    seen = before.scene.model_copy(update={"camera": plan.scene.camera})
+    """Whether two plans have equal scenes, apart from camera and probes, and equal bounces."""
+    scene = plan.scene
+    seen = before.scene.model_copy(update={"camera": scene.camera, "probes": scene.probes})
     return seen == plan.scene and plan.settings.bounces == before.settings.bounces

@@ -24,6 +24,8 @@ from glrt.packing.probes import (
     LIGHT_MAP,
     PUSHES,
     USE,
+    Turn,
+    all_of,
     even_directions,
     seeds,
     turn,
@@ -31,7 +33,7 @@ from glrt.packing.probes import (
 )
 from glrt.plan.methods import METHODS
 from glrt.plan.plan import Plan
-from glrt.plan.probe_grid import Grid
+from glrt.plan.probe_grid import Grid, updated_at_once
 from glrt.rendering.device_scene import DeviceScene
 from glrt.rendering.kernel_switch import ready
 from glrt.rendering.passes import PROBE_DISTANCES, PROBE_LIGHT, PROBE_PLACES, PROBE_RAYS, RenderPass
@@ -105,6 +107,8 @@ class ProbeTracer:
         settings = plan.settings.model_copy(update={"bounces": shorter})
         self._plan, self.is_used = replace(plan, settings=settings), shorter > 0
         self._sees, self._set, self._done = False, -1, 0
+        self._turn = self._all = all_of(self.grid.probes)  # the probes of the next update
+        self._place_in_order = 0
         self.seconds = Seconds()
         self._is_placed = self.goes_on = False  # goes_on: with the maps of other probes
         start = time.perf_counter()
@@ -115,7 +119,8 @@ class ProbeTracer:
                 self.maps = {name: _map(context, self.grid, name, refused) for name in _MAPS}
             self._rays = _texture(context, (RAYS, self.grid.probes), refused)
             with context.checked("the probes"):
-                self._block = context.gl.buffer(update_block(even_directions(RAYS), LIGHT))
+                block = update_block(even_directions(RAYS), LIGHT, self._all)
+                self._block = context.gl.buffer(block)
             refused.callback(self._block.release)
             self._kernels: dict[str, AnyKernel] = {}
             for name, each in _PASSES.items():
@@ -154,23 +159,29 @@ class ProbeTracer:
         start, seed, done = time.perf_counter(), self._plan.settings.seed, self._done
         share = kept_light(done) if kept is None else kept
         turned = even_directions(RAYS) @ turn(seeds(seed, number, done)).T
-        self._block.write(update_block(turned, LIGHT, done, int(seeds(seed, number)[3]), share))
+        own_seed = int(seeds(seed, number)[3])
+        self._block.write(update_block(turned, LIGHT, self._turn, done, own_seed, share))
         self._gather("probe_light")
         self._context.finish()
         self._scene.lost_any()  # rays that are lost are left out
         self._done += 1
         self.seconds.update += time.perf_counter() - start
 
-    def follow(self, hysteresis: float) -> None:
+    def follow(self, hysteresis: float) -> Turn:
         """Update light and distances of live probes once; they keep the fraction `hysteresis`.
 
-        Places are found again if objects, or the room of the camera, may have changed.
+        Returns the probes whose turn it was. Places of all are found again if objects, or the room
+        of the camera, may have changed.
         """
         if not self._is_placed:
             self._place()
+        length = updated_at_once(self._plan.scene, self.grid.probes)
+        self._turn = updated = Turn(self.grid.probes, self._place_in_order, length)
         self._see(FOLLOWING, self._done, kept=hysteresis)
         self._set = FOLLOWING
         self.update(FOLLOWING, hysteresis)
+        self._turn, self._place_in_order = self._all, updated.next
+        return updated
 
     def count(self) -> tuple[float, float]:
         """Rays of the warm-up of one set, and rays that find places and distances, as counted.
@@ -202,6 +213,7 @@ class ProbeTracer:
         self.maps, self._sees = before.maps, before._sees
         self._is_placed = before._is_placed and _stand_alike(self, before)
         self._set, self._done, self.goes_on = FOLLOWING, before._done, True
+        self._place_in_order = before._place_in_order
 
     def _look(self) -> None:
         """Move probes out of solids and find the distances they see: the same for every seed."""
@@ -219,24 +231,24 @@ class ProbeTracer:
         _clear(self.maps["probe_places"])
         for step in range(PUSHED + 1):
             purpose = PUSHES if step < PUSHED else USE
-            self._block.write(update_block(even_directions(RAYS), purpose))
+            self._block.write(update_block(even_directions(RAYS), purpose, self._all))
             self._gather("probe_places")
         self._is_placed = True
 
     def _see(self, *numbers: int, kept: float) -> None:
         """Update the distances once; `numbers` seed the random rotation of the rays."""
         turned = even_directions(RAYS) @ turn(seeds(*numbers)).T
-        self._block.write(update_block(turned, DISTANCES, kept=kept))
+        self._block.write(update_block(turned, DISTANCES, self._turn, kept=kept))
         self._gather("probe_distances")
 
     def _gather(self, name: str) -> None:
-        """Trace rays from all probes, and add their results to the map `name`."""
+        """Trace rays from the probes whose turn it is, and add their results to the map `name`."""
         self._run("target_rays", RAYS)
         self._run(name, _TEXELS[name])
 
     def _run(self, name: str, lanes: int) -> None:
         """Run the pass that writes `name`, with `lanes` invocations per probe."""
-        part = DispatchRange(0, 0, -(-lanes * self.grid.probes // GROUP))
+        part = DispatchRange(0, 0, -(-lanes * self._turn.length // GROUP))
         self._dispatch(name, self._kernels[name], part)
 
     def _dispatch(self, name: str, kernel: AnyKernel, part: DispatchRange) -> None:

@@ -32,7 +32,8 @@ from glrt.rendering.screen.display import displayed
 from glrt.rendering.tracer import Tracer
 from glrt.scene.instancing import Apart
 from glrt.scene.scene import Scene
-from glrt.settings import Cost, SettingOptions, Settings, settings_for
+from glrt.setting_options import SettingOptions
+from glrt.settings import Cost, Settings, settings_for
 
 
 class Renderer(Progress):

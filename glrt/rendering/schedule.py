@@ -150,7 +150,8 @@ def _rounds_of_shading(found: SceneFacts, settings: RenderSettings, search: int)
     lamps = sum(found.lamps.values())
     traits = METHODS[settings.method]
     if not traits.follows:
-        return 1 + search + lamps * (1 + HIGHLIGHT_ROUNDS)
+        highlights = 4 if settings.phong else 1  # the material's and the own one, again for terms
+        return 1 + search + lamps * (1 + highlights * HIGHLIGHT_ROUNDS)
     ends, segments = 1, settings.bounces + 1
     if traits.splits and (found.solid_glasses or found.panes):
         ends = 1 << depth_of(settings)  # light is gathered where a path ends

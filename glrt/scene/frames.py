@@ -1,22 +1,25 @@
 """A scene with other values in it: those of a frame of its animation, or of a sweep."""
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from typing import Any, TypeVar
 
 from pydantic import BaseModel
 
 from glrt.core.errors import SceneError
 from glrt.core.text import quoted, unknown
-from glrt.scene.animation.tracks import Track
+from glrt.phong import Phong
+from glrt.scene.animation.tracks import PHONG, Track
 from glrt.scene.schema.fields import SceneFields
 from glrt.scene.schema.validation import Place, validated
 from glrt.scene.shapes.kinds import Shape
 from glrt.scene.shapes.mesh import Mesh
 from glrt.scene.values import LARGEST
+from glrt.settings import Settings
 
 SceneType = TypeVar("SceneType", bound=SceneFields)
 Keys = tuple[str, ...]
 
+_WHOLE = int | None  # the type of a value that is rounded between keys
 _BY_NAME = {"materials": "material", "media": "medium"}  # tables of named parts; what each is
 
 
@@ -35,11 +38,20 @@ def with_values(scene: SceneType, values: Mapping[Keys, Any], source: str) -> Sc
             continue
         parts = _parts(now, keys)
         new = {place: _part(part, keys, value, source) for place, part in parts.items()}
-        if table == "objects":
+        if table == PHONG[0]:
+            update[table] = now.model_copy(update={PHONG[1]: new[PHONG]})
+        elif table == "objects":
             update[table] = tuple(new.get(place, thing) for place, thing in enumerate(now))
         else:
             update[table] = {**now, **new} if table in _BY_NAME else new[table]
     return validated(type(scene), dict(scene) | update, source) if update else scene
+
+
+def with_phong_of(still: SceneFields, moved: Iterable[Keys], settings: Settings) -> Settings:
+    """Return settings with the constants of Phong's model of a still, if `moved` names some."""
+    if not any(keys[:2] == PHONG for keys in moved):
+        return settings
+    return settings.model_copy(update={PHONG[1]: still.render.phong})
 
 
 def animation_problems(scene: SceneFields, groups: Collection[str]) -> Iterator[tuple[Place, str]]:
@@ -88,6 +100,8 @@ def _parts(now: Any, keys: Keys) -> dict[Any, Any]:
         parts: dict[Any, Any] = {name: now[name]}
     elif table == "objects":
         parts = {number: now[number] for number in _called(now, name)}
+    elif keys[:2] == PHONG:
+        parts = {PHONG: now.phong or Phong()}
     elif now is None:
         raise SceneError(f"the scene has no [{table}]")
     else:
@@ -103,6 +117,8 @@ def _part(part: BaseModel, keys: Keys, value: Any, source: str) -> BaseModel:
     """Return a part of a scene with another value of the last of some keys."""
     where = f"{source}: {'.'.join(keys[:-1])}" if source else ""
     fields = {name: item for name, item in part if item is not None}
+    if type(part).model_fields[keys[-1]].annotation == _WHOLE and isinstance(value, float):
+        value = round(value)
     return validated(type(part), {**fields, keys[-1]: value}, where)
 
 

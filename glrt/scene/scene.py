@@ -107,6 +107,11 @@ class Scene(LitScene):
         return with_values(self.still, values, f"frame {number}")
 
     @property
+    def moved(self) -> list[tuple[str, ...]]:
+        """The keys of each value that its animation changes."""
+        return [track.keys for track in self.animation.tracks] if self.animation else []
+
+    @property
     def still(self) -> Self:
         """The scene without its animation, with the values that it holds itself."""
         return self.model_copy(update={"animation": None}) if self.animation else self

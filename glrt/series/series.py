@@ -9,10 +9,10 @@ import numpy as np
 
 from glrt.core.errors import UsageError
 from glrt.scene.camera import Camera
-from glrt.scene.frames import with_values
+from glrt.scene.frames import with_phong_of, with_values
 from glrt.scene.scene import Scene
 from glrt.scene.shapes.box import sine_and_cosine
-from glrt.series.sweeps import SETTINGS, Sweep, setting_changes
+from glrt.series.sweeps import Sweep, is_setting, setting_changes
 from glrt.settings import Settings, settings_for
 
 TURN = 360.0  # degrees
@@ -73,7 +73,9 @@ class Series:
         if self.sweeps:
             return self._swept(number, settings)
         if self.turns is None:
-            return Still(self.scene.at_frame(number), settings, self._moment(number))
+            scene = self.scene.at_frame(number)
+            settings = with_phong_of(scene, self.scene.moved, settings)
+            return Still(scene, settings, self._moment(number))
         scene = self.scene.at_frame(0)
         degrees = TURN * number / self.turns
         camera = turned(scene.camera, degrees)
@@ -89,9 +91,11 @@ class Series:
         label = ", ".join(sweep.label(step) for sweep, step in pairs)
         values: dict[tuple[str, ...], Any] = {s.keys: s.value(step) for s, step in pairs}
         changes = setting_changes(values)
-        of_scene = {keys: value for keys, value in values.items() if keys[0] != SETTINGS}
-        scene = with_values(self.scene.at_frame(0), of_scene, f"frame {number}")
-        return Still(scene, settings_for(settings, **changes), label)
+        of_scene = {keys: value for keys, value in values.items() if not is_setting(keys)}
+        first = self.scene.at_frame(0)
+        scene = with_values(first, of_scene, f"frame {number}")
+        settings = with_phong_of(scene, of_scene, settings_for(settings, **changes))
+        return Still(scene, settings, label)
 
 
 def chosen(count: int, frames: tuple[int, int] | None) -> range:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from glrt.core.text import number, quoted
-from glrt.scene.animation.tracks import parse_target
+from glrt.scene.animation.tracks import PHONG, parse_target
 from glrt.settings import Settings
 
 SETTINGS = "render"  # the table of a key that is a setting
@@ -63,11 +63,12 @@ def parse_sweep(text: str) -> Sweep:
 
 def _keys(text: str) -> tuple[str, ...]:
     table, _, name = text.partition(".")
-    if table != SETTINGS:
+    if table != SETTINGS or name.partition(".")[0] == PHONG[1]:
         return parse_target(text)
     known = sorted(_numeric_settings())
     if name not in known:
-        raise ValueError(f"{quoted(text)}: a sweep can change {', '.join(known)} of render")
+        wanted = ", ".join([*known, "phong.KEY"])
+        raise ValueError(f"{quoted(text)}: a sweep can change {wanted} of render")
     return (SETTINGS, name)
 
 
@@ -86,8 +87,13 @@ def _numbers(text: str, whole: str) -> tuple[float, ...]:
         ) from None
 
 
+def is_setting(keys: tuple[str, ...]) -> bool:
+    """Return whether a value is a setting of the render; others are values of the scene."""
+    return keys[0] == SETTINGS and keys[:2] != PHONG
+
+
 def setting_changes(values: dict[tuple[str, ...], Any]) -> dict[str, Any]:
     """Return the settings among values by key; counts are whole numbers."""
-    found = {keys[1]: value for keys, value in values.items() if keys[0] == SETTINGS}
+    found = {keys[1]: value for keys, value in values.items() if is_setting(keys)}
     fields = Settings.model_fields
     return {name: round(v) if fields[name].annotation is int else v for name, v in found.items()}

@@ -24,7 +24,8 @@ from glrt.gpu.context import Context, open_context
 from glrt.image.image import Image
 from glrt.image.sources import load
 from glrt.scene.scene import Scene
-from glrt.settings import FrameOptions, settings_for
+from glrt.setting_options import FrameOptions
+from glrt.settings import settings_for
 
 SAMPLES = 64  # samples per pixel of a picture, unless a test gives another number
 TIMES = 4  # as many samples has its reference

@@ -47,7 +47,11 @@ vec3 direct_light(Vertex vertex, LightSample light, float rho) {
 // The end of a path in the classic models: adds the light of the lamps and of a sky that nothing hides.
 void shade(inout Path path, Vertex vertex, Ray from, inout Sampler rng) {
     vec3 weight = path.scale * path.throughput;
-    if (HAS_BACKGROUND) {
+    if (OWN_PHONG && frame.phong_ambient >= 0.0) {
+        if (LIGHT_TERMS != 0) sort_ambient(path);
+        vec3 ambient = weight * head_on_reflectance(vertex.material) * frame.phong_ambient;
+        gather(path, ambient, BACKGROUND_LAYER, path.depth + 1);
+    } else if (HAS_BACKGROUND) {
         vec3 sky = unhidden_sky(vertex.frame[2]);
         if (LIGHT_TERMS != 0) sort_by_surface(path, vertex, vertex.frame[2], 1.0, false);
         gather(path, weight * head_on_reflectance(vertex.material) * sky, BACKGROUND_LAYER, path.depth + 1);
@@ -65,7 +69,7 @@ void shade(inout Path path, Vertex vertex, Ray from, inout Sampler rng) {
         int shape = light_at(i).shape;
         vec3 direct = weight * point_light(vertex, from, shape);
         vec3 away = normalized(point_lamp(shape).center - from.origin);
-        if (LIGHT_TERMS != 0) sort_by_surface(path, vertex, away, 1.0, false);
+        if (LIGHT_TERMS != 0) sort_point_light(path, vertex, away);
         gather(path, direct, material_at(point_lamp(shape).material).layer, path.depth + 1);
     }
     note_end(i, light_count());

@@ -68,6 +68,17 @@ void sort_by_surface(inout Path path, Vertex vertex, vec3 direction, float pdf, 
     path.terms.rest = crosses ? TRANSMISSION : GLOSSY;
 }
 
+// The same for light of a classic model: of its ambient light, or of a lamp in a direction of the world.
+void sort_ambient(inout Path path) {
+    path.terms.base = vec3(1.0);
+    path.terms.rest = GLOSSY;
+}
+
+void sort_point_light(inout Path path, Vertex vertex, vec3 direction) {
+    sort_by_surface(path, vertex, direction, 1.0, false);
+    if (OWN_PHONG) path.terms.base = phong_base_share(vertex, to_local(vertex.frame, direction));
+}
+
 // The same for light that a medium scatters.
 void sort_by_medium(inout Path path) {
     if (path.depth > 0) return;

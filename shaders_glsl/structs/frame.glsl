@@ -58,4 +58,8 @@ struct Frame {
     ivec3 probe_counts;     // along x, y and z
     float coincident_reach; // largest coordinate of surfaces in one place, relative to the camera; where HAS_COINCIDENT
     int camera_medium;      // row of the medium around the camera, or NO_MEDIUM
+    float phong_ambient;    // constants of integrators/phong.glsl, where OWN_PHONG; below 0: as the material has it
+    float phong_diffuse;
+    float phong_specular;
+    int phong_exponent;
 };

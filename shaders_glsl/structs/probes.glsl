@@ -9,9 +9,9 @@ struct ProbeUpdate {
     uint seed;    // of the set of probes
     int purpose;  // of the rays
     float kept;   // share of the value before that a map keeps (hysteresis)
-    int spare_a;  // fill the row
-    int spare_b;
-    int spare_c;
+    int first;    // place in the order of the first probe that is updated
+    int count;    // how many are updated
+    int stride;   // step from probe to probe in that order: prime to the number of probes
 };
 
 // Purposes of the rays. Rays that look for surfaces bring no light.

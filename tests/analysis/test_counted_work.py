@@ -25,7 +25,8 @@ from glrt.image.sources import load
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.stopping import Limits
 from glrt.scene.scene import Scene, with_lights
-from glrt.settings import SettingOptions, Settings, settings_for
+from glrt.setting_options import SettingOptions
+from glrt.settings import Settings, settings_for
 from tests.support.builders import scene_of
 from tests.support.processes import glrt
 from tests.support.renders import same

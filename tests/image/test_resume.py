@@ -13,6 +13,7 @@ from glrt.image.film_state import FilmState, from_channels, to_channels
 from glrt.image.image import Image
 from glrt.image.recipe import Recipe
 from glrt.image.resume import fitting
+from glrt.phong import Phong
 from glrt.rendering.renderer import Renderer
 from glrt.settings import Settings
 from tests.support.builders import MATTE, lamp, quad, scene_of, sphere
@@ -156,7 +157,7 @@ def test_title_and_wished_samples_of_a_scene_may_change(begun: Image) -> None:
         *(("width", 25), ("height", 17), ("bounces", 3), ("method", "nee"), ("seed", 1)),
         *(("crop", (0, 0, 5, 5)), ("sampler", "independent"), ("roulette", False)),
         *(("caustics", "on"), ("particles", 1.0), ("aimed", 0.1), ("linked", 0.5), ("probes", 4)),
-        *(("reuse", "both"), ("unbiased", False)),
+        *(("reuse", "both"), ("unbiased", False), ("phong", Phong(ambient=0.1))),
         *(("version", "9.9"), ("renderer", "another"), ("tier", "generic")),
         ("pipeline", "fragment"),
     ],
@@ -171,6 +172,7 @@ def test_every_setting_is_free_or_refused(begun: Image) -> None:
     free = {"samples", "exposure", "tonemap", "aov", "denoise"}
     known = {"width", "height", "bounces", "method", "seed", "crop", "sampler", "roulette"}
     known |= {"caustics", "particles", "aimed", "linked", "probes", "reuse", "unbiased"}
+    known |= {"phong"}
     assert set(Settings.model_fields) == free | known
 
 

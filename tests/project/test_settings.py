@@ -4,7 +4,8 @@ import json
 from typing import Annotated, get_args, get_origin, get_type_hints
 
 from glrt.scene.scene import Scene
-from glrt.settings import SettingOptions, Settings
+from glrt.setting_options import SettingOptions
+from glrt.settings import Settings
 
 
 def test_the_keywords_for_editors_are_the_fields_of_the_model() -> None:

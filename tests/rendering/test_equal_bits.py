@@ -91,6 +91,7 @@ def test_the_renders_use_every_feature() -> None:
     assert found["lamps"] == set(SAMPLED)
 
 
+@pytest.mark.slow_cases("by constants")
 @pytest.mark.parametrize("name", RENDERS)
 def test_the_kernel_of_a_profile(software: Context, usual: Image, name: str) -> None:
     """Other tests render by these: features that a scene leaves out change no bit."""
@@ -109,6 +110,7 @@ WAYS = [  # a crowd has too many shapes to be baked; particles and probes have n
 ]
 
 
+@pytest.mark.slow_cases("by constants-tier-baked", "by constants-pipeline-fragment")
 @pytest.mark.parametrize(("name", "key", "way"), WAYS)
 def test_tiers_and_pipelines(
     software: Context, usual: Image, name: str, key: str, way: str

@@ -90,6 +90,7 @@ def test_what_a_file_leaves_out_has_the_documented_defaults() -> None:
         "samples": 256,
         "bounces": 10,
         "method": "mis",
+        "phong": None,
     }
     assert (scene.camera.up, scene.camera.fov, scene.camera.defocus_angle) == ((0, 1, 0), 45, 0)
     assert scene.materials["steel"] == Metal(color=(1, 1, 1), roughness=0)

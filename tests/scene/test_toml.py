@@ -67,7 +67,9 @@ def test_missing_file_is_named_with_its_neighbour(tmp_path: Path) -> None:
 
 def test_keys_of_a_table_in_a_table_are_its_own() -> None:
     sky = {"background": {"sky": {"turbidty": 3}}, "sun": {"elevation": 30, "azimuth": 0}}
-    with pytest.raises(SceneError, match=r"background\.sky: .* 'turbidity'\? Keys of a sky: "):
+    with pytest.raises(
+        SceneError, match=r"background\.sky: .* 'turbidity'\? Keys of \[background\.sky\]: "
+    ):
         parse_scene({"camera": {"position": [0, 0, 1], "look_at": [0, 0, 0]}, **sky}, "a")
 
 

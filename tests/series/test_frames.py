@@ -6,6 +6,7 @@ import pytest
 from glrt.core.errors import SceneError, UsageError
 from glrt.gpu.context import Context
 from glrt.image.sources import load
+from glrt.phong import Phong
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.stopping import Interruption
 from glrt.scene.camera import Camera
@@ -13,7 +14,7 @@ from glrt.scene.scenefile.toml import parse_scene
 from glrt.series.rendering import FrameRenderer, RenderOptions
 from glrt.series.series import Series, chosen, turned
 from glrt.series.sweeps import parse_sweep
-from glrt.settings import Settings
+from glrt.settings import Settings, settings_for
 from tests.support.images import same_bits
 
 SMALL = Settings(width=24, height=16, samples=16)
@@ -149,3 +150,61 @@ def test_frames_are_chosen_from_those_there_are() -> None:
     with pytest.raises(UsageError, match=r"--frames 2-9: the series has frames 0 to 8"):
         chosen(9, (2, 9))
     assert Series(load("cornell"), SMALL, turns=7).columns(7) == 3
+
+
+# --- constants of Phong's model ------------------------------------------------------------------
+
+SHADED = {
+    **MOVING,
+    "render": {"method": "blinn", "phong": {"specular": 0.5, "exponent": 10}},
+    "animation": {
+        "fps": 4,
+        "tracks": [
+            {"target": "render.phong.exponent", "times": [0, 1], "values": [10, 21]},
+            {"target": "render.phong.ambient", "times": [0, 1], "values": [0, 1]},
+        ],
+    },
+}
+
+
+def test_a_film_changes_the_constants_of_a_model() -> None:
+    """Scene and settings of a frame have them; whole numbers are rounded."""
+    scene = parse_scene(SHADED, "x")
+    series = Series(scene, settings_for(scene.render, width=8, height=8))
+    for number, exponent in enumerate((10, 13, 16, 18, 21)):
+        still = series.still(number)
+        phong = Phong(ambient=number / 4, specular=0.5, exponent=exponent)
+        assert still.scene.render.phong == still.settings.phong == phong
+        assert still.settings.width == 8
+
+
+def test_a_sweep_changes_the_constants_of_a_model() -> None:
+    scene = parse_scene(SHADED, "x").still
+    sweeps = tuple(map(parse_sweep, ("render.phong.exponent=1:4:3", "render.bounces=1:2:2")))
+    series = Series(scene, settings_for(scene.render), sweeps=sweeps)
+    found = [series.still(number) for number in range(series.count)]
+    shown = [(s.settings.phong and s.settings.phong.exponent, s.settings.bounces) for s in found]
+    assert shown == [(n, bounces) for n in (1, 2, 4) for bounces in (1, 2)]
+    assert all(still.scene.render.phong == still.settings.phong for still in found)
+
+
+@pytest.mark.parametrize(
+    ("target", "values", "text"),
+    [
+        ("render.phong.shine", [1, 2], "unknown key 'shine'. Keys of render.phong: ambient"),
+        ("render.phong.diffuse", [0, -1], r"values\[1\].*must be at least 0"),
+        ("render.bounces", [1, 2], "names no value that can change"),
+        ("render.width.phong", [1, 2], "names no value that can change"),
+    ],
+)
+def test_wrong_constants_in_tracks_are_refused(target: str, values: list[int], text: str) -> None:
+    tracks = [{"target": target, "times": [0, 1], "values": values}]
+    with pytest.raises(SceneError, match=text):
+        parse_scene({**SHADED, "animation": {"tracks": tracks}}, "x")
+
+
+def test_a_sweep_of_half_a_highlight_is_refused() -> None:
+    scene = parse_scene({**MOVING, "render": {"method": "phong"}}, "x").still
+    sweep = parse_sweep("render.phong.exponent=1:5:3")
+    with pytest.raises(SceneError, match="exponent is given without specular"):
+        Series(scene, settings_for(scene.render), sweeps=(sweep,)).check()

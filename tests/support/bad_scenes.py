@@ -103,6 +103,20 @@ _FILES = [
     ),
     BadScene("one table twice", GOOD_SCENE + "[camera]\n", ("TOML", "line 63", "camera")),
     BadScene("JSON", '{"camera": {}}', ("TOML", "line 1")),
+    bad(
+        "half a highlight",
+        'method = "mis"',
+        'method = "blinn"\nphong = { specular = 0.5 }',
+        "render.phong: specular is given without exponent",
+    ),
+    bad(
+        "a constant of no model",
+        'method = "mis"',
+        'method = "blinn"\nphong = { shine = 1 }',
+        "render.phong: unknown key 'shine'",
+        "Keys of [render.phong]: ambient, diffuse, specular, exponent",
+    ),
+    bad("constants in no table", 'method = "mis"', "phong = 2", "headed [render.phong], got 2"),
     BadScene(
         "nothing to see",
         "[camera]\nposition = [0, 0, 1]\nlook_at = [0, 0, 0]",

@@ -1,4 +1,4 @@
-"""Eight renders that together use every feature of the kernel, and the settings that ask for them.
+"""Nine renders that together use every feature of the kernel, and the settings that ask for them.
 
 tests/rendering/test_equal_bits.py renders each in every way, and fails if a feature is in none.
 """
@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from glrt.scene.probes import Probes
 from glrt.scene.scene import Scene
 from tests.support.builders import box, cylinder, disk, lamp, plane, quad, scene_of, sphere
 from tests.support.meshes import icosphere, mesh
@@ -21,6 +22,7 @@ STILL_LIFE = {
     "mirror": {"type": "metal", "color": [0.9, 0.8, 0.7]},
     "brass": {"type": "metal", "color": [0.9, 0.7, 0.3], "roughness": 0.4},
 }
+CONSTANTS = {"ambient": 0.1, "diffuse": 0.8, "specular": 0.5, "exponent": 20}
 CHECKER = {"checker": [0.25, 0.75]}
 MAPPED: dict[str, dict[str, Any]] = {
     "even": {"type": "lambertian", "color": [0.6, 0.5, 0.4]},
@@ -109,11 +111,12 @@ def caustics() -> Scene:
 
 
 def shared_places() -> Scene:
-    """A lamp in the plane of a wall, in a closed room."""
-    return room(
+    """A lamp in the plane of a wall, in a closed room whose live probes take turns."""
+    whole = room(
         quad([-0.4, 1, -0.4], [0.8, 0, 0], [0, 0, 0.8], "lamp"),
         sphere([0.3, -0.5, 0], 0.4, "mirror"),
     )
+    return whole.model_copy(update={"probes": Probes(per_update=0.5)})
 
 
 def pictured() -> Scene:
@@ -149,6 +152,7 @@ def hazy() -> Scene:
 RENDERS: dict[str, tuple[Scene, dict[str, Any]]] = {
     "still life": (still_life(), {"method": "mis"}),
     "still life by a model": (still_life(), {"method": "whitted"}),
+    "by constants": (still_life(), {"method": "blinn", "phong": CONSTANTS}),
     "mapped": (mapped(), {"method": "nee", "sampler": "independent"}),
     "crowd": (crowd(), {"method": "mis", "sampler": "independent"}),
     "caustics": (caustics(), {"caustics": "on", "linked": 0.5, "aimed": 0.5}),

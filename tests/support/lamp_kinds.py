@@ -7,7 +7,7 @@ from pathlib import Path
 FILES = (
     "lights/sampling.glsl",
     "lights/particle_emission.glsl",
-    "integrators/classic.glsl",
+    "integrators/point_lamps.glsl",
     "integrators/particle_start.glsl",
     "paths.comp",
 )

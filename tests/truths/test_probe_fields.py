@@ -9,7 +9,16 @@ import pytest
 from numpy.typing import NDArray
 
 from glrt.gpu.context import Context
-from glrt.packing.probes import IN_ROW, LIGHT, LIGHT_MAP, even_directions, seeds, turn, update_block
+from glrt.packing.probes import (
+    IN_ROW,
+    LIGHT,
+    LIGHT_MAP,
+    all_of,
+    even_directions,
+    seeds,
+    turn,
+    update_block,
+)
 from glrt.rendering.probe_tracer import RAYS, ProbeTracer
 from tests.support.builders import MATTE, plane, scene_of
 from tests.truths.test_probes import WAY, directions, inner, probes_of, room
@@ -38,7 +47,7 @@ def lit_by(context: Context) -> Iterator[ProbeTracer]:
         turned = even_directions(RAYS) @ turn(seeds(5)).T
         rays = np.ones((tracer.grid.probes, RAYS, 4), np.float32)
         rays[..., :3] = linear(turned)[None, :, None]
-        tracer._block.write(update_block(turned, LIGHT))
+        tracer._block.write(update_block(turned, LIGHT, all_of(tracer.grid.probes)))
         tracer._rays.write(rays)
         tracer._run("probe_light", TEXELS)
         yield tracer

@@ -5,6 +5,7 @@ from typing import get_args
 import pytest
 
 from glrt.core.errors import UsageError
+from glrt.phong import Phong
 from glrt.scene.camera import Camera
 from glrt.scene.lights.background import Background
 from glrt.scene.materials.dielectric import Dielectric
@@ -33,10 +34,11 @@ def test_a_control_repeats_what_the_model_says() -> None:
     assert (method.choices, method.cost) == (get_args(Method), Cost.RECOMPILE)
 
 
-def test_every_setting_has_a_control_but_the_crop_and_aovs_which_are_views() -> None:
+def test_every_setting_has_a_control_but_views_and_a_table_whose_keys_have_some() -> None:
     single = {n for n, f in Settings.model_fields.items() if len(get_args(f.annotation)) == 1}
     names = {control.name for control in controls_of(Settings)}
-    assert names == set(Settings.model_fields) - {"crop", "aov"} - single
+    assert names == set(Settings.model_fields) - {"crop", "aov", "phong"} - single
+    assert {control.name for control in controls_of(Phong)} == set(Phong.model_fields)
 
 
 def test_optional_and_annotated_types_are_seen_through() -> None:

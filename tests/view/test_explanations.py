@@ -2,6 +2,7 @@
 
 import pytest
 
+from glrt.phong import Phong
 from glrt.scene.materials.metal import Metal
 from glrt.view.controls import Control, controls_of
 from glrt.view.panels import lights, panel
@@ -27,6 +28,6 @@ def test_what_needs_no_explanation_has_none() -> None:
 
 
 def test_each_explanation_is_of_a_control() -> None:
-    named = {*panel.SETTINGS, "intensity", "emission", "ior"}
-    named |= {control.name for control in controls_of(Metal)}
+    named = {*panel.SETTINGS, "intensity", "emission", "ior", panel.PER_UPDATE.name}
+    named |= {control.name for model in (Metal, Phong) for control in controls_of(model)}
     assert EXPLANATIONS.keys() <= named

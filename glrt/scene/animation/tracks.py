@@ -13,8 +13,9 @@ from glrt.scene.animation.rotations import angles
 from glrt.scene.values import LARGEST, Number, Triple, Value
 
 MOST_FRAMES = 1_000_000
-TABLES = ("camera", "background", "sun", "lights", "materials", "media", "objects")
+TABLES = ("camera", "background", "sun", "lights", "materials", "media", "objects", "render")
 NAMED = ("materials", "media", "objects")  # tables whose values have a name before their key
+PHONG = ("render", "phong")  # the only table in [render] whose values change
 ROTATION = "rotate"  # the key that takes a quaternion, too
 _LONGEST = 500  # letters of a target
 _NUMBER = {"type": "number"}
@@ -38,12 +39,13 @@ def parse_target(text: str) -> tuple[str, ...]:
         keys.append(key)
     if node != 0 or "\n" in text:
         raise ValueError(f"{quoted(text)} is not the name of a value, such as {_EXAMPLE}")
-    wanted = 3 if keys[0] in NAMED else 2
-    if keys[0] not in TABLES or len(keys) != wanted:
+    wanted = 3 if keys[0] in (*NAMED, PHONG[0]) else 2
+    is_other = keys[0] == PHONG[0] and tuple(keys[:2]) != PHONG
+    if keys[0] not in TABLES or len(keys) != wanted or is_other:
         raise ValueError(
             f"{quoted(text)} names no value that can change: it must be one of camera.KEY, "
-            "background.KEY, sun.KEY, lights.GROUP, materials.NAME.KEY, media.NAME.KEY and "
-            "objects.NAME.KEY"
+            "background.KEY, sun.KEY, lights.GROUP, materials.NAME.KEY, media.NAME.KEY, "
+            "objects.NAME.KEY and render.phong.KEY"
         )
     return tuple(keys)
 
@@ -73,7 +75,8 @@ class Track(Value):
 
     target: str = Field(
         description="the value: camera.KEY, background.KEY, sun.KEY, lights.GROUP, "
-        'materials.NAME.KEY or objects.NAME.KEY; a name with spaces or dots stands in "quotes"'
+        "materials.NAME.KEY, media.NAME.KEY, objects.NAME.KEY or render.phong.KEY; a name with "
+        'spaces or dots stands in "quotes"'
     )
     times: tuple[Moment, ...] = Field(
         min_length=1, description="times of the keys in seconds, each after the one before"
@@ -81,7 +84,7 @@ class Track(Value):
     values: tuple[KeyValue, ...] = Field(
         min_length=1,
         description="value at each time, as the key takes it; rotate of an object also takes "
-        "quaternions x y z w",
+        "quaternions x y z w; whole numbers are rounded between keys",
     )
     interpolation: Interpolation = Field(
         "linear",

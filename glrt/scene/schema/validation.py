@@ -12,6 +12,7 @@ from pydantic_core import ErrorDetails
 
 from glrt.core.errors import SceneError
 from glrt.core.text import nearest, number, shortened, unknown
+from glrt.phong import Phong
 from glrt.scene.animation.tracks import Animation, Track
 from glrt.scene.camera import Camera
 from glrt.scene.density import Density
@@ -24,6 +25,7 @@ from glrt.scene.materials.textures import NormalTexture, Texture
 from glrt.scene.medium import Medium
 from glrt.scene.probes import Probes
 from glrt.scene.schema.fields import SceneFields
+from glrt.scene.schema.phrases import COUNTED, HEADINGS, PLAIN
 from glrt.scene.shapes.kinds import KINDS
 from glrt.scene.values import SMALLEST, plain
 from glrt.settings import RenderSettings
@@ -37,15 +39,16 @@ Place = tuple[int | str, ...]
 _TABLES: dict[str, type[BaseModel]] = {
     "camera": Camera,
     "render": RenderSettings,
+    "render.phong": Phong,
     "background": Background,
+    "background.sky": ClearSky,
     "sun": Sun,
     "probes": Probes,
     "animation": Animation,
     "media": Medium,
 }
 _Nested = tuple[int, str, type[BaseModel]]  # of a table in a table: how deep, its key, its model
-_SKY, _GRID, _CONE = (1, "sky", ClearSky), (2, "density", Density), (3, "cone", Cone)
-_NESTED: dict[str, _Nested] = {"background": _SKY, "media": _GRID, "materials": _CONE}
+_NESTED: dict[str, _Nested] = {"media": (2, "density", Density), "materials": (3, "cone", Cone)}
 _TRACK = 3  # keys down to a track: a longer location is of a key of it
 _KINDS: dict[str, dict[str, Any]] = {"materials": TYPES, "objects": KINDS}
 
@@ -157,7 +160,8 @@ def _model(location: Place) -> type[BaseModel]:
     if key and location[depth:-1] == (key,):
         return inner
     if table not in _KINDS:
-        return _TABLES[table]
+        inner_table = ".".join(map(str, location[:2]))
+        return _TABLES.get(inner_table if len(location) > 2 else table, _TABLES[table])
     if len(location) > 4 and str(location[3]).endswith(("_map", "normal")):
         return NormalTexture if location[3] == "normal" else Texture
     model: type[BaseModel] = _KINDS[table][str(location[2])]
@@ -188,37 +192,11 @@ def _object_name(item: Any) -> str:
 
 def _plain(place: Place, detail: ErrorDetails) -> str:
     shown = f", got {_shown(detail['input'])}"
-    if detail["type"] not in _PLAIN or place in _HEADINGS:
-        return _HEADINGS.get(place, "must be a table") + shown
+    if detail["type"] not in PLAIN or place in HEADINGS:
+        return HEADINGS.get(place, "must be a table") + shown
     limits = {key: _shown(limit) for key, limit in detail.get("ctx", {}).items()}
     subject = "its name " if detail["loc"][-1] == "[key]" else ""
-    return subject + _PLAIN[detail["type"]].format(**limits) + shown
-
-
-_PLAIN = {
-    "int_type": "must be a whole number",
-    "float_type": "must be a number",
-    "finite_number": "must be a finite number",
-    "string_type": "must be text in quotes",
-    "string_unicode": "must be text that UTF-8 can hold",
-    "invalid_key": "must have keys that are text",
-    "string_too_short": "must not be empty",
-    "string_pattern_mismatch": "must be one line, without control characters",
-    "greater_than": "must be greater than {gt}",
-    "greater_than_equal": "must be at least {ge}",
-    "less_than": "must be less than {lt}",
-    "less_than_equal": "must be at most {le}",
-    "tuple_type": "must be a list of three numbers",
-}
-_HEADINGS: dict[Place, str] = {
-    (): "a scene must be a table",
-    **{(name,): f"must be a table headed [{name}]" for name in (*_TABLES, "lights")},
-    ("animation", "tracks"): "must be a list of tables, each headed [[animation.tracks]]",
-    ("materials",): "must be a table of tables, each headed [materials.NAME]",
-    ("media",): "must be a table of tables, each headed [media.NAME]",
-    ("objects",): "must be a list of tables, each headed [[objects]]",
-}
-_COUNTED: dict[Place, str] = {("objects",): "shapes", ("media",): "media"}
+    return subject + PLAIN[detail["type"]].format(**limits) + shown
 
 
 def _own_words(_place: Place, detail: ErrorDetails) -> str:
@@ -227,7 +205,7 @@ def _own_words(_place: Place, detail: ErrorDetails) -> str:
 
 def _missing(place: Place, detail: ErrorDetails) -> str:
     if _is_short_vector(detail):
-        return f"{_PLAIN['tuple_type']}, got {_shown(detail['input'])}"
+        return f"{PLAIN['tuple_type']}, got {_shown(detail['input'])}"
     description = _model(detail["loc"]).model_fields[str(place[-1])].description
     return f"is missing; add it: {description}"
 
@@ -237,9 +215,9 @@ def _missing_kind(place: Place, _detail: ErrorDetails) -> str:
 
 
 def _too_long(place: Place, detail: ErrorDetails) -> str:
-    if place not in _COUNTED:
-        return f"{_PLAIN['tuple_type']}, got {_shown(detail['input'])}"
-    most = f"{detail['ctx']['max_length']:,} {_COUNTED[place]}"
+    if place not in COUNTED:
+        return f"{PLAIN['tuple_type']}, got {_shown(detail['input'])}"
+    most = f"{detail['ctx']['max_length']:,} {COUNTED[place]}"
     return f"must be at most {most}, got {len(detail['input']):,}"
 
 
@@ -250,9 +228,9 @@ def _too_small(place: Place, detail: ErrorDetails) -> str:
 
 
 def _unknown_key(_place: Place, detail: ErrorDetails) -> str:
-    model, table, key = _model(detail["loc"]), detail["loc"][0], str(detail["loc"][-1])
-    kind = {SceneFields: "scene", ClearSky: "sky"}.get(model, model.__name__.lower())
-    owner = f"[{table}]" if model in _TABLES.values() else f"a {kind}"
+    model, key = _model(detail["loc"]), str(detail["loc"][-1])
+    kind = "scene" if model is SceneFields else model.__name__.lower()
+    owner = next((f"[{name}]" for name, it in _TABLES.items() if it is model), f"a {kind}")
     text = unknown("key", key, _keys(detail), f"Keys of {owner}")
     if model is not SceneFields and key in SceneFields.model_fields:
         text += f" The {key} of the scene itself must stand above the first [table]."

@@ -7,9 +7,11 @@ from typing import Any, Literal
 from imgui_bundle import imgui
 
 from glrt.core.memo import kept_for_the_same
+from glrt.phong import Phong
 from glrt.plan.methods import METHODS
 from glrt.plan.plan import MOST_LAYERS
 from glrt.scene.camera import Camera
+from glrt.scene.probes import Probes
 from glrt.scene.scene import Scene
 from glrt.scene.warnings import cautions
 from glrt.settings import Cost, Settings
@@ -37,8 +39,15 @@ from glrt.view.widgets.steady_widget import ANCHOR
 SETTINGS = {c.name: c for c in controls_of(Settings, leave_out=("crop", "denoise"))}
 PATHS = ("method", "sampler", "roulette", "seed", "caustics")
 PROBES = ("probes",)  # shown if the method has probes
+PER_UPDATE = next(c for c in controls_of(Probes) if c.name == "per_update")  # with `probes`
 REUSE = ("reuse", "unbiased")  # shown if the method resamples points
 PARTICLES = ("particles", "aimed", "linked")  # shown if caustics are on
+PHONG = {c.name: c for c in controls_of(Phong)}  # shown if the method takes these constants
+OWN = {  # switches of constants, with the values that turning one on sets
+    "ambient": {"ambient": 0.1},
+    "diffuse": {"diffuse": 1.0},
+    "highlights": {"specular": 0.5, "exponent": 32},
+}
 DISPLAY = ("exposure", "tonemap")
 FRAME: tuple[Literal["width"], Literal["height"]] = ("width", "height")
 CAMERA = {c.name: c for c in controls_of(Camera)}
@@ -125,12 +134,46 @@ def _paths(app: App) -> None:
     if session.layering == "lengths":
         _lengths(session)
     _settings(app, PATHS)
+    if METHODS[session.settings.method].has_constants:
+        _constants(session)
     if METHODS[session.settings.method].has_probes:
         _settings(app, PROBES)
+        _turns(app)
     if METHODS[session.settings.method].resamples:
         _settings(app, REUSE)
     if session.settings.caustics == "on":
         _settings(app, PARTICLES)
+
+
+def _turns(app: App) -> None:
+    """Draw the share of live probes that a picture updates."""
+    probes = app.session.scene.probes or Probes()
+    is_all = probes.per_update == 1
+    cost, reach = (Cost.RECOMPILE, None) if is_all else (Cost.RESTART, (0.99, Cost.RECOMPILE))
+    share = edited(PER_UPDATE.costing(cost, reach), probes.per_update)
+    if share is not None:
+        app.edit_scene("per update", partial(_with_share, per_update=share))
+
+
+def _with_share(scene: Scene, per_update: float) -> Scene:
+    return replaced(scene, probes=replaced(scene.probes or Probes(), per_update=per_update))
+
+
+def _constants(session: Session) -> None:
+    """Draw the constants of Phong's model; each can be left to materials."""
+    phong = session.settings.phong or Phong()
+    for name, start in OWN.items():
+        is_own = all(getattr(phong, key) is not None for key in start)
+        turned = {key: None if is_own else value for key, value in start.items()}
+        other = replaced(phong, **turned)
+        cost = Cost.RESTART if other.is_given == phong.is_given else Cost.RECOMPILE
+        text = f"{name} by constants for all surfaces, not by their materials"
+        is_turned = edited(switch(f"own {name}", text, cost), is_own) is not None
+        controls = tuple(PHONG[key] for key in start) if is_own else ()
+        changes = turned if is_turned else edited_fields(controls, dict(phong), "phong")
+        if changes:
+            after = replaced(phong, **changes)
+            session.edit(gesture=f"{list(changes)}", phong=after if after.is_given else None)
 
 
 def _lengths(session: Session) -> None:

@@ -31,6 +31,11 @@ EXPLANATIONS: dict[str, str] = {
         "eight around it, E = sum(w E) / sum(w), by nearness and by whether they see it. 16 "
         "samples share a set of probes, which is warmed up first."
     ),
+    "per_update": (
+        "While edits follow one another, a picture updates this share s of the probes, in turn. An "
+        "update takes s of the rays, and light lags 1 / s times as long. At rest, all probes are "
+        "warmed up."
+    ),
     "reuse": (
         "One of the points y_i is kept, with a chance of w_i / sum(w), where w_i = m_i P(y_i) / "
         "p(y_i). It counts L(y) sum(w) / P(y), so the mean stays. P is the light that y would "
@@ -52,6 +57,23 @@ EXPLANATIONS: dict[str, str] = {
         "The largest number of scattering events B on a path; light that needs more is left out. "
         "In a closed room that shines with Le everywhere and has the albedo a, a picture shows "
         "Le (1 - a^(B+1)) / (1 - a) instead of Le / (1 - a)."
+    ),
+    "ambient": (
+        "The radiance that a white surface has everywhere, I_a: it stands for all indirect light, "
+        "and is the same in each corner. A surface of colour C sends I_a C."
+    ),
+    "diffuse": (
+        "The share k_d of its colour that a surface reflects evenly: a lamp of irradiance E adds "
+        "k_d C E (N.L) / pi, N.L the cosine between normal and lamp."
+    ),
+    "specular": (
+        "The strength k_s of highlights: a lamp adds k_s E (N.H)^n / pi, H halfway between lamp "
+        "and eye (blinn), or k_s E (R.V)^n / pi, R the mirrored direction (phong). Above 1 - k_d "
+        "a surface may send more light than it gets."
+    ),
+    "exponent": (
+        "The sharpness n of highlights: they are as wide as cos^n is. N.H falls with half the "
+        "angle of R.V, so phong needs a quarter of the exponent of blinn for the same width."
     ),
     "intensity": (
         "Light adds up: a picture is the sum of those of its light groups, L = sum of w L(group). "

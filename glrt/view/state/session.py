@@ -11,6 +11,7 @@ from typing import Any
 from glrt.core.errors import GlrtError, RenderError, UsageError
 from glrt.gpu.context import Context, Pipeline
 from glrt.image.image import Image
+from glrt.plan.methods import has_ambient
 from glrt.plan.plan import Layering, Weights
 from glrt.rendering.pipelines import resolve
 from glrt.rendering.renderer import Renderer
@@ -80,9 +81,13 @@ class Session(Editing):
 
     @property
     def weighed(self) -> Layering:
-        """The layering whose weights show an edit; "none" while terms of light are gathered."""
+        """The layering whose weights show an edit.
+
+        "none" while terms of light are gathered, or light belongs to no group.
+        """
         has_terms = bool({*self.aovs, *self.settings.aov} & {*TERMS})
-        return "none" if has_terms else self.layering
+        is_mixed = self.layering == "groups" and has_ambient(self.settings)
+        return "none" if has_terms or is_mixed else self.layering
 
     @property
     def lacks_room(self) -> bool:
