@@ -3,10 +3,12 @@
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
 import pytest
 
 from bench.peer import Peer
 from glrt.gpu.context import Context
+from glrt.scene.density import Density
 from glrt.scene.scene import Scene
 from tests.crosscheck.test_mitsuba import judged, ours, theirs
 from tests.support.builders import box, cylinder, glass, lamp, plane, quad, scene_of, sphere
@@ -57,9 +59,24 @@ def glass_of_milk(milk: Any) -> Scene:
     return scene_of(things, MATERIALS, EYE, media={"fog": milk}, background=SKY)
 
 
+def smoky(fog: Any) -> Scene:
+    """A turned box of smoke on a floor, with a white ball in it; its density varies."""
+    draw = np.random.default_rng(4)
+    values = draw.uniform(0, 2, (9, 14, 11)).astype(np.float32) ** 3
+    smoke = {**fog, "density": Density(values)}
+    things = [
+        {**filled(box([-0.9, 0.3, -0.7], [0.8, 1.9, 0.9], "")), "rotate": [10, 30, 20]},
+        sphere([0.2, 1.0, 0.1], 0.3, "white"),
+        FLOOR,
+        ABOVE,
+    ]
+    return scene_of(things, MATERIALS, EYE, media={"fog": smoke}, background=SKY)
+
+
 SCENES: dict[str, tuple[Callable[[Any], Scene], Any, int]] = {  # and the limit of bounces
     "a room in fog": (room, medium([0.2, 0.3, 0.4], 0.05, g=0.5), 4),
     "a ball of coloured fog": (coloured, medium([4, 2, 0.5], [0.1, 0.5, 2], g=-0.4), 8),
+    "smoke of a grid": (smoky, medium([2, 1, 0.5], [0.1, 0.2, 0.8], g=0.3), 8),
     "a glass of milk": (glass_of_milk, medium([4, 3.5, 3], [0.01, 0.03, 0.1], g=0.7), 24),
 }
 

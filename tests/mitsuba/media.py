@@ -1,13 +1,16 @@
 """Media in the words of Mitsuba: what lies inside and outside each surface that bounds one."""
 
+import importlib
 from typing import Any
 
 import numpy as np
 
 from glrt.core.errors import SceneError
+from glrt.scene.grids import grid_of, placement_of
 from glrt.scene.scene import Scene
 from glrt.scene.volumes import bounds_of, medium_around
 from tests.mitsuba.near import Near
+from tests.support.numerics import Array
 
 Words = dict[str, Any]
 
@@ -39,11 +42,33 @@ def _medium(scene: Scene, name: str, at: Near) -> Words:
     medium = scene.media[name]
     if medium.emits:
         raise SceneError(f"medium '{name}': the converter knows media that do not shine.")
-    total = [max(x, 1e-12) for x in medium.extinction]
-    albedo = [s / x for s, x in zip(medium.scattering, total, strict=True)]
+    total = np.maximum(medium.extinction, 1e-12)
+    albedo = {"type": "rgb", "value": (np.array(medium.scattering) / total).tolist()}
+    phase = {"type": "hg", "g": medium.anisotropy}
+    if medium.density is not None:
+        grid = _grid(scene, name, total / at.factor, at)
+        return {"type": "heterogeneous", "sigma_t": grid, "albedo": albedo, "phase": phase}
+    even = {"type": "rgb", "value": (total / at.factor).tolist()}
+    return {"type": "homogeneous", "sigma_t": even, "albedo": albedo, "phase": phase}
+
+
+def _grid(scene: Scene, name: str, extinction: Array, at: Near) -> Words:
+    """The extinction of a medium as voxels of three channels, in a box that fills its object."""
+    mi = importlib.import_module("mitsuba")
+    density = scene.media[name].density
+    if density is None or density.min is not None:
+        raise SceneError(f"medium '{name}': the converter knows grids that fill their object.")
+    grid, place = grid_of(scene, name), placement_of(scene, name)
+    inverse = np.linalg.inv(place.linear)
+    matrix = np.eye(4)  # from the unit cube
+    matrix[:3, :3] = at.along(inverse * grid.voxels.shape[::-1])
+    matrix[:3, 3] = at.point(-inverse @ place.origin)
+    values = grid.top * grid.voxels.astype(np.float32)[..., None] * extinction.astype(np.float32)
     return {
-        "type": "homogeneous",
-        "sigma_t": {"type": "rgb", "value": [x / at.factor for x in total]},
-        "albedo": {"type": "rgb", "value": albedo},
-        "phase": {"type": "hg", "g": medium.anisotropy},
+        "type": "gridvolume",
+        "grid": mi.VolumeGrid(values),
+        "to_world": mi.ScalarTransform4f(matrix),
+        "filter_type": "trilinear",
+        "wrap_mode": "clamp",
+        "raw": True,
     }
