@@ -13,6 +13,7 @@
 #include "sampling/warp.glsl"
 #include "sampling/angle.glsl"
 #include "sampling/hole_numbers.glsl"
+#include "sampling/collision_numbers.glsl"
 #include "sampling/power_heuristic.glsl"
 #include "shapes/all_shapes.glsl"
 #include "bsdfs/scattering.glsl"

@@ -12,18 +12,6 @@ const float BRICK = 8.0;  // voxels along an edge of a brick: glrt/scene/files/n
 const float LEAST_COLLISIONS = 4.0;
 const float NEARLY_ACROSS = 1e-20;  // along an axis, in place of 0, by which a length is divided
 
-uint null_state = 0u;  // random numbers of collisions: no draws of the sampler, as their count differs between paths
-
-void start_collisions(uint seed) {
-    null_state = pcg_hash(~seed);
-}
-
-float next_of_collision() {
-    null_state += STEP;
-    float value = unit_float(pcg_hash(null_state));
-    return value;
-}
-
 // -ln(1 - u), for u below 1, which differs between drivers: by the exponent and the series of artanh, whose argument
 // is at most 0.172. The series is right to 1e-9.
 float depth_of(float u) {

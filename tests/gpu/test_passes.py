@@ -26,6 +26,7 @@ TEMPORAL = ("least_squares", "wrls", "wrls_rows", "taa", "ataa")  # by tests/ren
 PROBES = {  # by tests/shaders/test_probe_kernels.py
     *("probe_rays.comp", "probe_light.comp", "probe_distances.comp", "probe_place.comp"),
     *("probes/blend.glsl", "probes/first_met.glsl", "probes/place.glsl", "probes/solids.glsl"),
+    "probes/turns.glsl",
     "structs/probes.glsl",
 }
 

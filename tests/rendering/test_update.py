@@ -9,6 +9,7 @@ import pytest
 from glrt.core.errors import RenderError, SceneError, UsageError
 from glrt.gpu.context import Context
 from glrt.gpu.glsl import Source
+from glrt.phong import Phong
 from glrt.rendering import device_scene, kernel_switch
 from glrt.rendering.schedule import INTERACTIVE
 from glrt.scene.scene import Scene
@@ -60,6 +61,7 @@ CHANGES: dict[str, Any] = {
     "samples": 7,
     "bounces": 3,
     "method": "nee",
+    "phong": Phong(diffuse=0.5),
     "sampler": "sobol",
     "crop": (2, 3, 5, 7),
     "roulette": False,

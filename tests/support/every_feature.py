@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from glrt.scene.density import Density
 from glrt.scene.probes import Probes
 from glrt.scene.scene import Scene
 from tests.support.builders import box, cylinder, disk, lamp, plane, quad, scene_of, sphere
@@ -91,9 +92,9 @@ def crowd() -> Scene:
     things += [
         disk([0.45 * x, 0.9 + 0.02 * z, 0.6 * z], [0, -1, 0.1], 0.05, "lamp") for x, z in grid
     ]
-    heap = icosphere(2)
+    heap, flat = icosphere(2), {"smooth": False, "backfaces": "hidden"}
     things += [
-        mesh(heap, "matte", translate=[0.9 * k - 1.35, 0.1, -3], scale=0.3, smooth=False)
+        mesh(heap, "matte", translate=[0.9 * k - 1.35, 0.1, -3], scale=0.3, **flat)
         for k in range(4)
     ]
     return scene_of([FLOOR, *things], STILL_LIFE, {"fov": 70})
@@ -133,7 +134,12 @@ def hazy() -> Scene:
     """Two media within each other, one of them in glass, under a lamp, a sun and a sky."""
     white, grey = {"type": "dielectric", "ior": 1.4}, {"type": "lambertian", "color": [0.5] * 3}
     fog = {"scattering": [0.4, 0.5, 0.7], "absorption": [0.1, 0.0, 0.2], "anisotropy": 0.4}
-    milk = {"scattering": [3, 2, 1], "emission": [0.1, 0.2, 0.1], "anisotropy": -0.3}
+    milk: dict[str, Any] = {
+        "scattering": [3, 2, 1],
+        "emission": [0.1, 0.2, 0.1],
+        "anisotropy": -0.3,
+    }
+    milk["density"] = Density(np.linspace(0.5, 1, 12, dtype=np.float32).reshape(2, 3, 2))
     return scene_of(
         [
             plane([0, -1, 0], [0, 1, 0], "grey"),

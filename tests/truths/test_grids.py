@@ -114,6 +114,7 @@ def test_gas_that_only_shines_is_seen(context: Context) -> None:
     assert_mean(whole(image), depth_along_z(RAMP) * np.array([1, 2, 3]), 0.02)
 
 
+@pytest.mark.slow
 def test_gas_that_scatters_shines_as_a_ball_of_it_does(context: Context) -> None:
     """Without absorption, the mean over the disc is 4 / 3 of e R, whatever scatters."""
     place = np.linspace(-1, 1, 33)[1::2]
@@ -129,6 +130,7 @@ def test_gas_that_scatters_shines_as_a_ball_of_it_does(context: Context) -> None
 # --- scattering ------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("g", [-0.9, 0.0, 0.9])
 def test_white_smoke_under_an_even_sky_cannot_be_seen(context: Context, g: float) -> None:
     fog = smoke(BUMPY, [0.5, 2, 5], anisotropy=g)
@@ -137,7 +139,7 @@ def test_white_smoke_under_an_even_sky_cannot_be_seen(context: Context, g: float
     assert_mean(whole(image), [1.0] * 3, 0.03)
 
 
-@pytest.mark.slow_cases("naive", "nee")
+@pytest.mark.slow
 @pytest.mark.parametrize("method", METHODS)
 def test_a_cavity_with_smoke_in_equilibrium_is_even(context: Context, method: str) -> None:
     """Walls that emit what they absorb, and smoke that does the same (Kirchhoff): radiance 1."""
@@ -193,6 +195,7 @@ def test_voxels_lie_where_they_belong(context: Context) -> None:
             assert_mean(whole(image), [np.exp(-0.5 * truth)] * 3, 0.2)
 
 
+@pytest.mark.slow_cases("mesh")
 @pytest.mark.parametrize("thing", ["box", "mesh"])
 def test_a_grid_turns_with_its_object(context: Context, thing: str) -> None:
     """About z by 90 degrees: x of the grid lies along y of the world."""

@@ -29,6 +29,7 @@ def files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Files:
     session: Any = SimpleNamespace(
         scene=load("cornell"), problem="", settings=Settings(), edit=edit
     )
+    session.opened = SimpleNamespace(scene=session.scene)
     recent = tmp_path / "recent.json"
     return Files(session, Messages(session), "cornell", recent, lambda _: None, lambda _: None)
 

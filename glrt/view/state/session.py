@@ -81,10 +81,7 @@ class Session(Editing):
 
     @property
     def weighed(self) -> Layering:
-        """The layering whose weights show an edit.
-
-        "none" while terms of light are gathered, or light belongs to no group.
-        """
+        """The layering whose weights show an edit; "none" with terms, or light of no group."""
         has_terms = bool({*self.aovs, *self.settings.aov} & {*TERMS})
         is_mixed = self.layering == "groups" and has_ambient(self.settings)
         return "none" if has_terms or is_mixed else self.layering
