@@ -8,6 +8,7 @@ from glrt.gpu.glsl import read
 from glrt.lab.scenes import lamp, plane, quad, scene_of, sphere
 from glrt.lab.sweep import SIGMAS, Lab, Sweep, mean_of
 from glrt.rendering.pipelines import PLAIN, Variant
+from glrt.scene.density import Density
 from glrt.scene.scene import Scene
 
 WEAKENED = "depth += hit.distance * medium_at(medium).extinction"
@@ -16,16 +17,19 @@ SIDE = 16  # of a picture, in pixels
 ALBEDO = 0.5  # share of scattering in a medium
 BOUNCES = 60  # what is left beyond them is ALBEDO to that power
 EVEN = {"bottom": [1.0] * 3, "top": [1.0] * 3}
+EDGE = 16  # voxels of a grid along an edge
+_GRID = "media/grid.glsl"
 _FLIGHT, _PATH = "media/flight.glsl", "integrators/path_in_media.glsl"
 
 
-def equilibrium(depth: float, g: float = 0.0) -> Scene:
+def equilibrium(depth: float, g: float = 0.0, density: Density | None = None) -> Scene:
     """A ball of gas and a lamp in it that emit what they absorb, under an even sky: all is 1.
 
-    `depth` is the optical depth of the radius, and `g` the anisotropy.
+    `depth` is the optical depth of the radius where the density is 1, and `g` the anisotropy.
     """
     half = [ALBEDO * depth] * 3
-    gas = {"scattering": half, "absorption": half, "emission": half, "anisotropy": g}
+    gas: dict[str, Any] = {"scattering": half, "absorption": half, "emission": half}
+    gas |= {"anisotropy": g, **({"density": density} if density else {})}
     body = {**sphere([0, 0, -3], 1, "none"), "medium": "gas"}
     return scene_of(
         [body, sphere([0.2, 0, -3], 0.4, "lamp")],
@@ -50,6 +54,23 @@ def turn(lab: Lab) -> Sweep:
     even = read(_PATH).replace("eval_phase(medium.anisotropy,", "eval_phase(0.0,")
     naive = {"lamps that are scattered evenly": Variant(texts={_PATH: even})}
     return _even("anisotropy", x, lab, [equilibrium(2.0, g) for g in x], naive)
+
+
+def spike(lab: Lab) -> Sweep:
+    """Error of gas in equilibrium with one voxel that is denser than all others."""
+    x = [1.0, 10.0, 100.0, 1000.0, 10000.0]
+    scenes = [equilibrium(1.0, density=_with_spike(ratio)) for ratio in x]
+    bound = "voxel_at(first + number).x"
+    text = {_GRID: read(_GRID).replace(bound, f"min(1.0 / grid.top, {bound})")}
+    naive = {"bounds that leave the voxel out": Variant(texts=text)}
+    return _even("density of a voxel over that of the others", x, lab, scenes, naive)
+
+
+def _with_spike(ratio: float) -> Density:
+    """Return a grid of density 1, but `ratio` in a voxel in front of the lamp."""
+    values = np.ones((EDGE, EDGE, EDGE), np.float32)
+    values[3 * EDGE // 4, EDGE // 2, EDGE // 2] = ratio
+    return Density(values)
 
 
 def _even(
