@@ -76,6 +76,7 @@ UNLIT = [name for name in scene_names() if not sampled(name)]
 
 RARE = {
     "stage": Rare("naive", 32, 5),  # small lamps
+    "shading": Rare("naive", 8, 5),  # the same
     "cradle": Rare("nee", 8, 5),  # polished steel, whose lobe a sample of a lamp seldom meets
 }
 
