@@ -50,7 +50,7 @@ def test_a_scene_has_a_title_of_its_own(name: str) -> None:
     assert titles.count(load(name).title) == 1
 
 
-@pytest.mark.slow_cases("shading")
+@pytest.mark.slow_cases("shading", "smoke")
 @pytest.mark.parametrize("name", scene_names())
 def test_a_scene_renders_to_something_finite_and_not_black(name: str, context: Context) -> None:
     scene = load(name)

@@ -72,6 +72,7 @@ def test_a_grid_that_scatters_lets_through_what_beer_says(context: Context, valu
     assert_mean(whole(image), np.exp(-MU * depth_along_z(values)), 0.1)
 
 
+@pytest.mark.slow
 def test_a_shadow_is_as_deep_as_the_grid(context: Context) -> None:
     """A floor under smoke that scatters; direct light of a lamp straight above it, far away."""
     things = [
