@@ -8,12 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glrt.core.text import quoted
-from glrt.scene.density import Density
 from glrt.scene.files.named_grids import MOST_VOXELS, Voxels
 from glrt.scene.schema.fields import SceneFields
-from glrt.scene.shapes.box import Box
-from glrt.scene.shapes.kinds import KINDS, Shape
-from glrt.scene.shapes.mesh import Mesh
+from glrt.scene.shapes.base import Frame
+from glrt.scene.shapes.kinds import Shape
 
 Floats = NDArray[np.float64]
 
@@ -32,12 +30,13 @@ class Placement(NamedTuple):
 def placement_of(scene: SceneFields, name: str) -> Placement:
     """Return the place of the grid of a medium whose file was read."""
     density, grid = scene.media[name].density, grid_of(scene, name)
-    holder = next((it for it in _holders(scene, name)), None)
-    linear, origin = _frame(holder)
-    low, high = _box(density, holder)
-    size = np.array(grid.voxels.shape[::-1]) / (high - low)
-    inverse = np.linalg.inv(linear)
-    return Placement(size[:, None] * inverse, size * (-inverse @ origin - low))
+    holder = next(_holders(scene, name), None)
+    frame = holder.frame if holder else Frame(np.eye(3), np.zeros(3), np.zeros(3), np.zeros(3))
+    if density and density.min and density.max:
+        frame = frame._replace(low=np.array(density.min), high=np.array(density.max))
+    size = np.array(grid.voxels.shape[::-1]) / (frame.high - frame.low)
+    inverse = np.linalg.inv(frame.axes)
+    return Placement(size[:, None] * inverse, size * (-inverse @ frame.origin - frame.low))
 
 
 class Grid(NamedTuple):
@@ -84,8 +83,8 @@ def grid_problems(scene: SceneFields) -> Iterator[str]:
             yield f"{key}.min: is missing: what holds the medium has no end. Give min and max."
         if density.min is not None or len(holders) != 1 or is_endless:
             continue
-        low, high = _bounds(holders[0])
-        if (low >= high).any():
+        frame = holders[0].frame
+        if (frame.low >= frame.high).any():
             yield f"{key}.min: is missing: the object that holds the medium is flat. Give a box."
     if count > MOST_VOXELS:
         yield (
@@ -96,33 +95,3 @@ def grid_problems(scene: SceneFields) -> Iterator[str]:
 
 def _holders(scene: SceneFields, name: str) -> Iterator[Shape]:
     return (it for it in scene.objects if it.medium == name and not it.hidden)
-
-
-def _box(density: Density | None, holder: Shape | None) -> tuple[Floats, Floats]:
-    """Return the corners of the box of a grid, in the frame of its object."""
-    if density is not None and density.min is not None and density.max is not None:
-        return np.array(density.min), np.array(density.max)
-    assert holder is not None
-    return _bounds(holder)
-
-
-def _frame(holder: Shape | None) -> tuple[Floats, Floats]:
-    """Return the frame of an object: a point q in it is linear @ q + origin in the world."""
-    if isinstance(holder, Mesh):
-        return holder.linear, holder.origin
-    if isinstance(holder, Box):
-        turned, middle = holder.axes.T, np.array(holder.middle)
-        return turned, middle - turned @ middle
-    return np.eye(3), np.zeros(3)
-
-
-def _bounds(holder: Shape) -> tuple[Floats, Floats]:
-    """Return the corners of the box around an object, in its frame."""
-    if isinstance(holder, Mesh):
-        vertices = holder.triangles.vertices
-        return vertices.min(axis=0), vertices.max(axis=0)
-    if isinstance(holder, Box):
-        middle, halves = np.array(holder.middle), holder.halves
-        return middle - halves, middle + halves
-    low, high = KINDS[holder.shape].bounds(np.array([holder.row], np.float64))
-    return low[0], high[0]

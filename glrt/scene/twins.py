@@ -57,7 +57,7 @@ def _groups(objects: Sequence[Shape]) -> Iterator[list[int]]:
 
 
 def _is_read(thing: Shape) -> bool:
-    return not isinstance(thing, Mesh) or thing.file.triangles is not None
+    return not isinstance(thing, Mesh) or thing.file.is_read
 
 
 def _equal_rows(rows: Iterable[Any], numbers: Sequence[int]) -> Iterator[list[int]]:

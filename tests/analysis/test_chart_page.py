@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from PIL import Image as Pillow
 
 from glrt.analysis import plot
 from glrt.analysis.chart import sections
@@ -29,7 +28,7 @@ from glrt.lab import report
 from glrt.lab.sweep import Case, Finding, Sweep
 from glrt.settings import Settings
 from tests.analysis.test_motion import TRACKS
-from tests.support.browser import found_in, screenshot
+from tests.support.browser import codes_of, found_in
 
 SWEEP = Sweep(
     parameter="size",
@@ -87,18 +86,19 @@ def experiment() -> Experiment:
         curve("mis", (2.0, 0.5), (20.0, 0.05)),
         curve("slow", (4.0, 0.9), (40.0, 0.5)),
     )
-    whole = SimpleNamespace(samples=64, bounces=10, error=0.001, is_doubtful=False)
+    whole: Any = SimpleNamespace(samples=64, bounces=10, error=0.001, is_doubtful=False)
     whole.radiance = np.zeros((2, 3, 3))
     variants = tuple(Variant(it.name, Settings()) for it in curves)
     rays = tuple(Rays(4.0) for _ in curves)
-    return Experiment("room", "A room", 2, whole, variants, curves, rays, "here")  # type: ignore[arg-type]
+    return Experiment("room", "A room", 2, whole, variants, curves, rays, "here")
 
 
 def test_the_page_needs_no_network_and_holds_every_value(page: Path) -> None:
     text = page.read_text()
     assert not re.search(r"https?:|@import|src=|url\(", text)
     assert text.count("</script>") == 3, "a name does not end the data"
-    data = json.loads(re.search(r'application/json">(.*?)</script>', text, re.DOTALL)[1])  # type: ignore[index]
+    (written,) = re.findall(r'application/json">(.*?)</script>', text, re.DOTALL)
+    data = json.loads(written)
     first, second = data["sections"]
     assert (first["verdict"], first["holds"]) == ("holds", True)
     assert (second["verdict"], second["holds"]) == ("BROKEN at 10", False)
@@ -173,12 +173,7 @@ def test_zeros_are_hollow_at_the_bottom(page: Path) -> None:
 
 @pytest.mark.parametrize(("width", "dark"), [(390, False), (1000, True)])
 def test_the_page_fits_and_draws(page: Path, width: int, dark: bool, tmp_path: Path) -> None:
-    script = "found = document.documentElement.scrollWidth - innerWidth;"
-    assert found_in(page, script, width) <= 0, "the page scrolls sideways"
-    screenshot(page, tmp_path / "page.png", width, 900, dark)
-    with Pillow.open(tmp_path / "page.png") as shown:
-        codes = np.asarray(shown.convert("RGB")).astype(int)
-    assert (np.median(codes) < 64) == dark, "the ground"
+    codes = codes_of(page, tmp_path, width, dark)
     orange = (codes[..., 0] > codes[..., 2] + 150).mean()
     assert orange > 2e-4, "the curve of the naive method"
 

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from PIL import Image as Pillow
 
 from glrt.comparison.heatmap import colors, strongest
 from glrt.comparison.html import Compared, entry_of, save_page
@@ -16,7 +15,7 @@ from glrt.comparison.verdict import compare
 from glrt.gpu.context import Context
 from glrt.image.image import Image
 from glrt.image.sources import load
-from tests.support.browser import found_in, screenshot
+from tests.support.browser import codes_of, found_in
 from tests.support.processes import glrt
 from tests.support.renders import rendered
 
@@ -129,12 +128,7 @@ def test_exposure_and_zoom_act_on_the_framed_picture(
 def test_the_page_fits_and_shows_its_pictures(
     page: Path, width: int, dark: bool, tmp_path: Path
 ) -> None:
-    script = "found = document.documentElement.scrollWidth - innerWidth;"
-    assert found_in(page, script, width) <= 0, "the page scrolls sideways"
-    screenshot(page, tmp_path / "page.png", width, 900, dark)
-    with Pillow.open(tmp_path / "page.png") as shown:
-        codes = np.asarray(shown.convert("RGB")).astype(int)
-    assert (np.median(codes) < 64) == dark, "the ground"
+    codes = codes_of(page, tmp_path, width, dark)
     reddish = (codes[..., 0] > codes[..., 1] + 60).mean()
     assert reddish > 0.01, "the red wall of the room"
 

@@ -7,9 +7,14 @@ import subprocess
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+
 from tests.support.system_packages import needs_package
 
 NAMES = ("chromium-headless-shell", "chromium", "google-chrome")
+DARK = 64  # code of a pixel: the ground of the dark style is below it
 OPTIONS = ("--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--virtual-time-budget=20000")
 
 
@@ -52,6 +57,17 @@ def screenshot(
     """Write a picture of a page, as PNG, in the dark style or in the light one."""
     scheme = f"--blink-settings=preferredColorScheme={0 if dark else 1}"
     _run(scheme, f"--window-size={width},{height}", f"--screenshot={file}", page.as_uri())
+
+
+def codes_of(page: Path, folder: Path, width: int, dark: bool) -> NDArray[np.int64]:
+    """Pixels of a page, (H, W, 3), which must fit its width and have the ground of its style."""
+    script = "found = document.documentElement.scrollWidth - innerWidth;"
+    assert found_in(page, script, width) <= 0, "the page scrolls sideways"
+    screenshot(page, folder / "page.png", width, 900, dark)
+    with Image.open(folder / "page.png") as shown:
+        codes = np.asarray(shown.convert("RGB")).astype(np.int64)
+    assert (np.median(codes) < DARK) == dark, "the ground"
+    return codes
 
 
 def _run(*words: str) -> str:

@@ -54,6 +54,11 @@ class CameraFile(NamedFile):
         """The cameras of the file; None before it is read."""
         return self._cameras
 
+    @property
+    def is_read(self) -> bool:
+        """Whether its cameras are there."""
+        return self._cameras is not None
+
     def read_as(self, sha256: str, cameras: Cameras, origin: Path | None) -> "CameraFile":
         """Return the file with its content."""
         found = CameraFile(file=self.file, sha256=sha256)

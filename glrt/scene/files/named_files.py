@@ -1,6 +1,7 @@
 """Files that a scene names: the path, and the SHA-256 of the content once it is known."""
 
 import re
+from abc import abstractmethod
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Self
@@ -25,6 +26,17 @@ class NamedFile(Frozen):
 
     _origin: Path | None = PrivateAttr(None)
     _companions: Mapping[str, str] = PrivateAttr({})
+    _content: bytes | None = PrivateAttr(None)
+
+    @property
+    @abstractmethod
+    def is_read(self) -> bool:
+        """Whether the content is there."""
+
+    @property
+    def content(self) -> bytes | None:
+        """Content of the file of what was made from arrays; None for what was read from a file."""
+        return self._content
 
     @property
     def origin(self) -> Path | None:

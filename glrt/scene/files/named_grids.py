@@ -29,7 +29,6 @@ class GridFile(NamedFile):
     _voxels: Voxels | None = PrivateAttr(None)
     _tops: Voxels = PrivateAttr(np.zeros((0, 0, 0), np.float16))
     _most: float = PrivateAttr(0.0)
-    _content: bytes | None = PrivateAttr(None)
 
     @property
     def voxels(self) -> Voxels | None:
@@ -47,9 +46,9 @@ class GridFile(NamedFile):
         return self._most
 
     @property
-    def content(self) -> bytes | None:
-        """Content of the file of a grid from an array; None for one that was read from a file."""
-        return self._content
+    def is_read(self) -> bool:
+        """Whether its voxels are there."""
+        return self._voxels is not None
 
     def read_as(self, sha256: str, values: NDArray[Any], origin: Path | None) -> "GridFile":
         """Return the grid with its content, (z, y, x)."""

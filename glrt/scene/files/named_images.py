@@ -23,6 +23,11 @@ class ImageFile(NamedFile):
         """Pixels, (H, W, 3), linear, row 0 on top; None before the file is read."""
         return self._pixels
 
+    @property
+    def is_read(self) -> bool:
+        """Whether its pixels are there."""
+        return self._pixels is not None
+
     def read_as(self, sha256: str, pixels: Pixels, origin: Path | None) -> "ImageFile":
         """Return the image with its content."""
         found = ImageFile(file=self.file, sha256=sha256)
@@ -41,6 +46,11 @@ class TextureImage(NamedFile):
     def texels(self) -> Texels | None:
         """Texels, (H, W, 4), linear, alpha last, row 0 on top; None before the file is read."""
         return self._texels
+
+    @property
+    def is_read(self) -> bool:
+        """Whether its texels are there."""
+        return self._texels is not None
 
     def read_as(self, sha256: str, texels: Texels, origin: Path | None) -> Self:
         """Return the image with its content."""

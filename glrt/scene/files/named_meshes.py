@@ -19,19 +19,18 @@ class MeshFile(NamedFile):
     """A mesh from a file, or from arrays under the name of the file that it is saved as."""
 
     _triangles: TriangleMesh | None = PrivateAttr(None)
-    _content: bytes | None = PrivateAttr(None)
     _libraries: Mapping[str, str] = PrivateAttr({})
     _unread: tuple[str, ...] = PrivateAttr(())
+
+    @property
+    def is_read(self) -> bool:
+        """Whether its triangles are there."""
+        return self._triangles is not None
 
     @property
     def triangles(self) -> TriangleMesh | None:
         """The triangles of the mesh; None before the file is read."""
         return self._triangles
-
-    @property
-    def content(self) -> bytes | None:
-        """Content of the file of a mesh from arrays; None for a mesh that was read from a file."""
-        return self._content
 
     @property
     def libraries(self) -> Mapping[str, str]:

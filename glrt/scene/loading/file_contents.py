@@ -23,17 +23,6 @@ BRIGHTEST = 65_504.0  # of a texture: the largest half float
 NamedContent = ImageFile | TextureImage | MeshFile | CameraFile | GridFile
 
 
-def is_read(named: NamedContent) -> bool:
-    """Return whether the content of a file is there."""
-    if isinstance(named, ImageFile):
-        return named.pixels is not None
-    if isinstance(named, GridFile):
-        return named.voxels is not None
-    if isinstance(named, CameraFile):
-        return named.cameras is not None
-    return (named.texels if isinstance(named, TextureImage) else named.triangles) is not None
-
-
 def with_content(named: NamedContent, reader: AssetReader, where: str) -> NamedContent:
     """Return a file with its content; raises `SceneError`, which begins with `where`."""
     if isinstance(named, CameraFile):

@@ -7,8 +7,6 @@ from typing import NamedTuple
 
 from glrt.core.errors import UsageError
 from glrt.core.files import write_whole
-from glrt.scene.files.named_grids import GridFile
-from glrt.scene.files.named_meshes import MeshFile
 from glrt.scene.files.path_text import name_of
 from glrt.scene.loading.file_contents import NamedContent
 from glrt.scene.loading.scene_files import named_files
@@ -50,8 +48,7 @@ def copy_files(scene: SceneFields, folder: Path) -> None:
 
 def _sources(scene: SceneFields) -> Iterator[_Source]:
     for _, named in named_files(scene):
-        content = named.content if isinstance(named, MeshFile | GridFile) else None
-        yield _Source(named.path, named.sha256, named.origin, content)
+        yield _Source(named.path, named.sha256, named.origin, named.content)
         for path, sha256 in named.companions.items():
             yield _Source(path, sha256, _next_to(named, path), None)
 

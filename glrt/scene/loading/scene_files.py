@@ -15,7 +15,7 @@ from glrt.scene.files.named_images import ImageFile, TextureImage
 from glrt.scene.grids import grid_problems
 from glrt.scene.instancing import tree_sizes, with_own_tree
 from glrt.scene.loading.file_camera import with_camera_of_file
-from glrt.scene.loading.file_contents import NamedContent, is_read, with_content
+from glrt.scene.loading.file_contents import NamedContent, with_content
 from glrt.scene.loading.mesh_parts import lacks_material, part_problem, with_own_materials
 from glrt.scene.materials.base import Opaque
 from glrt.scene.materials.kinds import Material
@@ -61,7 +61,7 @@ def with_files(
     the folder, no image or mesh, or not as expected.
     """
     reader = AssetReader(folder)
-    is_new = scene.camera.file is not None and not is_read(scene.camera.file)
+    is_new = scene.camera.file is not None and not scene.camera.file.is_read
     scene = _read(scene, reader, source)
     if is_new and folder.expected is None:  # the recipe of a picture holds it all
         scene = with_camera_of_file(scene, source)
@@ -75,7 +75,7 @@ def with_files(
 def _read(scene: SceneType, reader: AssetReader, source: str) -> SceneType:
     found = dict[NamedContent, NamedContent]()
     for key, named in named_files(scene):
-        if not is_read(named) and named not in found:
+        if not named.is_read and named not in found:
             found[named] = with_content(named, reader, f"{source}: {key}")
     return _with(scene, found, f"{source}: ") if found else scene
 
@@ -104,11 +104,11 @@ def with_stand_ins(scene: SceneType) -> SceneType:
     """
     found = dict[NamedContent, NamedContent]()
     for _, named in named_files(scene):
-        if isinstance(named, TextureImage) and not is_read(named):
+        if isinstance(named, TextureImage) and not named.is_read:
             found[named] = named.read_as("", np.ones((1, 1, 4), np.float16), None)
-        elif isinstance(named, ImageFile) and not is_read(named):
+        elif isinstance(named, ImageFile) and not named.is_read:
             found[named] = named.read_as("", np.ones((1, 1, 3), np.float32), None)
-        elif isinstance(named, GridFile) and not is_read(named):
+        elif isinstance(named, GridFile) and not named.is_read:
             found[named] = named.read_as("", np.ones((1, 1, 1), np.float32), None)
     return _with(scene, found) if found else scene
 
@@ -116,7 +116,7 @@ def with_stand_ins(scene: SceneType) -> SceneType:
 def check_loaded(scene: SceneFields) -> None:
     """Raise SceneError for a scene whose files were not read, or do not fit."""
     for key, named in named_files(scene):
-        if not is_read(named):
+        if not named.is_read:
             raise SceneError(
                 f"{key}: the file {named.file} was not read: load the scene by glrt.load, or give "
                 "Scene.build the folder of its files."

@@ -29,6 +29,24 @@ class LampBody(NamedTuple):
     normal: Array  # (3,), of any length; 0 for a sphere
 
 
+class Frame(NamedTuple):
+    """A frame in which a shape lies, and the box around the shape in it.
+
+    A point q of the frame is axes @ q + origin in the world.
+    """
+
+    axes: Array  # (3, 3)
+    origin: Array  # (3,)
+    low: Array  # (3,), corner of the box with the least coordinates
+    high: Array  # (3,)
+
+    @property
+    def middle(self) -> Array:
+        """Middle of the box, in the world."""
+        middle: Array = self.axes @ ((self.low + self.high) / 2) + self.origin
+        return middle
+
+
 class Object(Tagged):
     """A shape with a name and a material, and methods for its geometry."""
 
@@ -90,6 +108,12 @@ class Object(Tagged):
     def is_bounded(self) -> bool:
         """Whether the shape ends: some ball holds it."""
         return math.isfinite(self.reach)
+
+    @property
+    def frame(self) -> Frame:
+        """The frame that turns and grows with the shape: that of the world, unless it has one."""
+        low, high = self.bounds(np.array([self.row], np.float64))
+        return Frame(np.eye(3), np.zeros(3), low[0], high[0])
 
     @property
     def lamp_body(self) -> LampBody | None:

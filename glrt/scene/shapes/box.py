@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal, Self
 import numpy as np
 from pydantic import Field, model_validator
 
-from glrt.scene.shapes.base import Array, Object
+from glrt.scene.shapes.base import Array, Frame, Object
 from glrt.scene.shapes.faces import Faces, box_faces
 from glrt.scene.shapes.flat_faces import FlatFace
 from glrt.scene.values import SMALLEST, Triple, Vector
@@ -70,6 +70,12 @@ class Box(Object):
     def axes(self) -> Array:
         """Unit directions of the edges as rows, (3, 3)."""
         return rotation(self.rotate).T
+
+    @property
+    def frame(self) -> Frame:
+        """The frame of `min` and `max`, turned about the middle."""
+        turned, middle = self.axes.T, np.array(self.middle)
+        return Frame(turned, middle - turned @ middle, middle - self.halves, middle + self.halves)
 
     @property
     def reach(self) -> float:

@@ -9,7 +9,7 @@ from pydantic import Field
 
 from glrt.scene.files.named_meshes import MeshFile, NamedMesh, mesh_of_arrays
 from glrt.scene.meshes.triangle_meshes import TriangleMesh
-from glrt.scene.shapes.base import Array, Sided, along_and_rest
+from glrt.scene.shapes.base import Array, Frame, Sided, along_and_rest
 from glrt.scene.shapes.box import rotation
 from glrt.scene.shapes.faces import Faces, box_faces, faces_of_triangles, welded
 from glrt.scene.shapes.mesh_rays import nearest, winds_around
@@ -218,12 +218,14 @@ class Mesh(Sided):
         return bool(np.linalg.det(self.linear) > 0)
 
     @property
+    def frame(self) -> Frame:
+        """The frame of the file."""
+        return Frame(self.linear, self.origin, *self.triangles.box)
+
+    @property
     def middle(self) -> Vector:
         """Middle of the box around the mesh, in its own axes; its origin if it is unread."""
-        center = self.origin
-        if self.file.triangles is not None:
-            low, high = self.triangles.box
-            center = self.linear @ ((low + high) / 2) + center
+        center = self.frame.middle if self.file.is_read else self.origin
         x, y, z = (float(value) for value in center)
         return (x, y, z)
 
@@ -266,9 +268,8 @@ class Mesh(Sided):
         """The triangles, or the box around them if they are more than MOST_OUTLINED."""
         triangles = self.triangles
         if len(triangles.faces) > MOST_OUTLINED:
-            low, high = triangles.box
-            middle = self.linear @ ((low + high) / 2) + self.origin
-            return box_faces(middle, (self.linear * ((high - low) / 2)).T)
+            axes, _, low, high = self.frame
+            return box_faces(self.frame.middle, (axes * ((high - low) / 2)).T)
         corners = welded(triangles.vertices)[triangles.faces]
         return faces_of_triangles(self.world_vertices, corners)
 
