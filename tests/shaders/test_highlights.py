@@ -23,8 +23,8 @@ def test_a_white_highlight_reflects_everything_head_on(
     call_glsl: CallGlsl, model: int, alpha: float
 ) -> None:
     wi = hemisphere()
-    call = f"eval_highlight({alpha}, vec3(0.0, 0.0, 1.0), wi)"
-    values = call_glsl(call, wi=wi, constants={"MODEL": model})
+    call = "eval_highlight(alpha, vec3(0.0, 0.0, 1.0), wi)"
+    values = call_glsl(call, wi=wi, alpha=np.array([alpha]), constants={"MODEL": model})
     assert 2 * math.pi * values.mean(dtype=float) == pytest.approx(1, rel=2e-3)
 
 

@@ -10,12 +10,12 @@ LANES = 200_000
 STREAM = """
 Sampler rng = make_sampler(seed);
 Stream stream = empty_stream();
-for (int i = 0; i < {count}; i += 1) {{
+for (int i = 0; i < count; i += 1) {
     float x = next_independent(rng);
     float u = next_independent(rng);
     Source source = Source(vec3(0.0), vec3(0.0), vec3(x), i);
-    offer(stream, source, luminance(source.light) / float({count}), i, u);
-}}
+    offer(stream, source, luminance(source.light) / float(count), i, u);
+}
 """
 
 
@@ -32,7 +32,7 @@ def test_an_integral_keeps_its_mean_however_many_are_offered(
     """
     seeds = np.arange(LANES, dtype=np.uint32) * 2654435761 + np.uint32(count)
     value = "stream.kept.light.x * stream.kept.light.x * (stream.sum / stream.kept.light.x)"
-    found = call_glsl(value, setup=STREAM.format(count=count), seed=seeds.astype(np.uint32))
+    found = call_glsl(value, setup=STREAM, seed=seeds.astype(np.uint32), count=np.array([count]))
     assert abs(found.mean(dtype=np.float64) - 1 / 3) < 5.5 * np.sqrt(variance / LANES)
     assert found.var(dtype=np.float64) == pytest.approx(variance, rel=0.03)
     assert found.var(dtype=np.float64) > 1 / 72
@@ -44,11 +44,12 @@ def test_candidates_are_kept_as_often_as_they_weigh(
 ) -> None:
     """This holds in any order, and a candidate without a weight is never kept."""
     setup = "Sampler rng = make_sampler(seed); Stream stream = empty_stream();"
-    for number, weight in enumerate(weights):
+    weighed = {f"weight{number}": np.array([float(it)]) for number, it in enumerate(weights)}
+    for number in range(4):
         setup += f"float u{number} = next_independent(rng);"
-        setup += f"offer(stream, no_source(), {float(weight)}, {number}, u{number});"
+        setup += f"offer(stream, no_source(), weight{number}, {number}, u{number});"
     seeds = np.arange(LANES, dtype=np.uint32) + np.uint32(17)
-    kept = call_glsl("float(stream.origin)", setup=setup, seed=seeds).astype(int)
+    kept = call_glsl("float(stream.origin)", setup=setup, seed=seeds, **weighed).astype(int)
     counts = np.bincount(kept, minlength=4)
     expected = LANES * np.array(weights) / sum(weights)
     assert (counts[expected == 0] == 0).all()

@@ -14,7 +14,8 @@ from tests.support.numerics import Array
 
 MIRROR = {"type": "metal", "color": [0.9, 0.9, 0.9], "roughness": 0}
 ON: dict[str, Any] = {"caustics": "on", "linked": 1.0}
-BRANCHES = {"upper": "1.0, false", "falling": "-1.0, true", "lower": "-1.0, false"}
+BRANCHES = {"upper": (1.0, 0), "falling": (-1.0, 1), "lower": (-1.0, 0)}  # sign, whether D falls
+BRANCH = "Branch(sign, falls != 0)"
 KINDS = [(1, "falling"), (1, "lower"), (2, "falling"), (2, "lower")]
 KINDS += [(chords, "upper") for chords in (0, 1, 2)]
 STEP = 1e-6
@@ -22,7 +23,7 @@ ARC = """
     Sphere ball = sphere_at(0);
     ball.center = vec3(0.2, -0.1, 0.3);
     ball.radius = 0.7;
-    Arc arc = arc_of(eye, vertex, ball, ior, {});"""
+    Arc arc = arc_of(eye, vertex, ball, ior, chords);"""
 CENTER, RADIUS = np.array([0.2, -0.1, 0.3]), 0.7
 
 
@@ -88,6 +89,7 @@ def across(direction: Array) -> tuple[Array, Array]:
 class Links(NamedTuple):
     """Eyes and vertices that are linked, n rows of each."""
 
+    chords: int
     eye: Array
     vertex: Array
     ior: Array
@@ -97,8 +99,8 @@ class Links(NamedTuple):
 
     def inputs(self) -> dict[str, Array]:
         """The inputs of ARC and of a crossing."""
-        sine = self.way.sine
-        return {"eye": self.eye, "vertex": self.vertex, "ior": self.ior, "sine": sine}
+        ends = {"eye": self.eye, "vertex": self.vertex, "ior": self.ior}
+        return {**ends, "sine": self.way.sine, "chords": np.full(len(self.eye), self.chords)}
 
 
 def links(chords: int, count: int = 20_000) -> Links:
@@ -121,7 +123,7 @@ def links(chords: int, count: int = 20_000) -> Links:
         apart /= (other.direction * way.direction).sum(1)
         edges.append((other.far + apart[:, None] * other.direction - vertex) / STEP)
     area = np.abs((np.cross(*edges) * way.direction).sum(1))
-    return Links(eye, vertex, ior, way, start, 1 / area)
+    return Links(chords, eye, vertex, ior, way, start, 1 / area)
 
 
 @pytest.mark.parametrize("chords", [0, 1, 2])
@@ -131,7 +133,7 @@ def test_a_link_spreads_as_rays_do(call_glsl: CallGlsl, chords: int) -> None:
         "spread_of(arc, crossing_of(arc, sine))",
         scene=place(),
         options=ON,
-        setup=ARC.format(chords),
+        setup=ARC,
         **found.inputs(),
     )
     is_there = spread > 0
@@ -140,16 +142,22 @@ def test_a_link_spreads_as_rays_do(call_glsl: CallGlsl, chords: int) -> None:
     assert np.median(np.abs(spread / found.spread - 1)[is_there]) < 1e-5
 
 
+def inputs_of(branch: tuple[float, int]) -> dict[str, Array]:
+    """The inputs of BRANCH."""
+    return {"sign": np.array([branch[0]]), "falls": np.array([branch[1]])}
+
+
 def ways_found(call_glsl: CallGlsl, chords: int) -> tuple[Links, dict[str, Array]]:
     """The sines of incidence that the branches find, of links that are there; NaN: none."""
     found = links(chords)
-    usual: dict[str, Any] = {"scene": place(), "options": ON, "setup": ARC.format(chords)}
+    usual: dict[str, Any] = {"scene": place(), "options": ON, "setup": ARC}
     usual |= found.inputs()
     slope = call_glsl("crossing_of(arc, sine).slope", **usual)
     fits = call_glsl("has_links(arc)", "bool", **usual) & (np.abs(slope) > 0.0625)
     sines = {}
     for name, branch in BRANCHES.items():
-        m = call_glsl(f"meeting_of(arc, Branch({branch}))", **usual).astype(np.float64)
+        m = call_glsl(f"meeting_of(arc, {BRANCH})", **usual, **inputs_of(branch))
+        m = m.astype(np.float64)
         sines[name] = np.where((m >= 0) & fits, 2 * m / (1 + m * m), np.nan)
     told = np.where(fits, slope, np.nan)
     return found, {**sines, "slope": told}
@@ -182,8 +190,8 @@ def test_each_branch_is_met(call_glsl: CallGlsl, chords: int, branch: str) -> No
     found, sines = ways_found(call_glsl, chords)
     is_met = np.abs(sines[branch] - found.way.sine) < 1e-5
     assert is_met.sum() > 50
-    call = f"sense_of(Branch({BRANCHES[branch]}), {chords}) + 0.0 * x"
-    (told,) = call_glsl(call, scene=place(), options=ON, x=np.zeros(1))
+    usual: dict[str, Any] = {"scene": place(), "options": ON, "chords": np.array([chords])}
+    (told,) = call_glsl(f"sense_of({BRANCH}, chords)", **usual, **inputs_of(BRANCHES[branch]))
     assert (sense_of(found)[is_met] == told).mean() > 0.99  # except with eye and vertex in line
 
 
@@ -203,7 +211,7 @@ def test_a_way_runs_where_rays_do(call_glsl: CallGlsl, chords: int) -> None:
     true = {"near": found.way.near, "far": found.way.far, "direction": found.start}
     way = "Way way = way_of(arc, ball.center, crossing_of(arc, sine), sense);"
     for name, expected in true.items():
-        setup = ARC.format(chords) + way
+        setup = ARC + way
         got = call_glsl(f"way.{name}", "vec3", setup=setup, sense=sense_of(found), **usual)
         apart = np.abs(got - expected).max(axis=1)
         assert np.quantile(apart, 0.99) < 1e-5  # beyond: eye, centre and vertex in line
@@ -230,11 +238,12 @@ def test_links_are_drawn_as_their_shares_say(call_glsl: CallGlsl) -> None:
 def test_branches_are_drawn_as_their_shares_say(call_glsl: CallGlsl, vertex: list[float]) -> None:
     """One alone where D rises at once, three where it falls first."""
     u = (np.arange(4096) + 0.5) / 4096
-    usual: dict[str, Any] = {"scene": place(), "options": ON, "setup": ARC.format(1), "u": u}
+    usual: dict[str, Any] = {"scene": place(), "options": ON, "setup": ARC, "u": u}
     usual |= {
         "eye": np.array([[-3.0, 0.2, 0.3]]),
         "vertex": np.array([vertex]),
         "ior": np.array([1.5]),
+        "chords": np.array([1]),
     }
     sign = call_glsl("draw_branch(arc, u).sign", **usual)
     falls = call_glsl("draw_branch(arc, u).falls", "bool", **usual)
@@ -281,7 +290,7 @@ def test_tinted_glass_takes_its_share_of_each_chord(call_glsl: CallGlsl, chords:
         "vec3",
         scene=tinted,
         options=ON,
-        setup=ARC.format(chords),
+        setup=ARC,
         **found.inputs(),
     )
     inside = 2 * chords * RADIUS * np.sqrt(1 - (found.way.sine / found.ior) ** 2)

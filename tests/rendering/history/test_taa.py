@@ -38,9 +38,9 @@ float weight_of(int one, int frames, float old) {
 def weights_of(gl: moderngl.Context, frames: int, old: float) -> Array:
     """The weight of each frame in the last; `old`: the samples that the first one stands for."""
     files = ["temporal/taa.glsl"]
-    call = f"weight_of(one, {frames}, {old!r})"
-    probe = Probe(call, "float", functions=RECURSION, includes=files)
-    return probe.run(gl, {"one": np.arange(frames)})
+    probe = Probe("weight_of(one, frames, old)", functions=RECURSION, includes=files)
+    given = {"frames": np.full(frames, frames), "old": np.full(frames, old, np.float32)}
+    return probe.run(gl, {"one": np.arange(frames), **given})
 
 
 # --- weights ------------------------------------------------------------------------------------
