@@ -10,7 +10,7 @@ from glrt.view.controls import Control
 from glrt.view.panels import background, lights, panel, sun
 from glrt.view.widgets import fields
 from tests.window.check_preferences import CHOICES
-from tests.window.gestures import click_twice, move
+from tests.window.gestures import click_twice, move, to_label
 from tests.window.hand import Hand, check
 
 # Each control by its label in the panel: the control, and what to do to it.
@@ -176,8 +176,7 @@ def a_double_click_sets_the_default(hand: Hand) -> None:
     hand.settle()
     assert hand.session.settings.exposure == 1.5
     move(hand, "method/naive", None)
-    item = ctx.item_info("//Controls/method")
-    ctx.mouse_move_to_pos((item.rect_full.max.x + 20, item.rect_full.get_center().y))
+    to_label(hand, "method")
     click_twice(hand)
     hand.settle()
     assert hand.session.settings.method == "mis"

@@ -10,21 +10,10 @@ from glrt.scene.materials.light import Light
 from glrt.scene.shapes.sphere import Sphere
 from glrt.view.panels import viewport
 from glrt.view.panels.viewport import is_dragging as dragging
-from tests.window.gestures import ball, click_twice, press
+from tests.window.gestures import ball, click_twice, press, to_label
 from tests.window.hand import Hand, check
 
 CTRL = imgui.Key.mod_ctrl.value
-
-
-def to_label(hand: Hand, reference: str) -> tuple[float, float]:
-    """Move the mouse to the label of a control, which lies right of its widget; where it is."""
-    hand.ctx.scroll_to_item_y(f"//Controls/{reference}")
-    hand.ctx.yield_(3)
-    rect = hand.ctx.item_info(f"//Controls/{reference}").rect_full
-    place = rect.max.x + 20, rect.get_center().y
-    hand.ctx.mouse_move_to_pos(place)
-    hand.ctx.yield_(2)
-    return place
 
 
 def scrub(hand: Hand, reference: str, pixels: float) -> None:

@@ -73,6 +73,18 @@ def click_twice(hand: Hand) -> None:
     io.mouse_double_click_time, io.mouse_single_click_delay = before
 
 
+def to_label(hand: Hand, reference: str) -> tuple[float, float]:
+    """Move the mouse to the label of a control, which lies left of its widget; where it is."""
+    hand.ctx.scroll_to_item_y(f"//Controls/{reference}")
+    hand.ctx.yield_(3)
+    rect = hand.ctx.item_info(f"//Controls/{reference}").rect_full
+    edge = hand.there(lambda: imgui.internal.find_window_by_name("Controls").pos.x)
+    place = edge + imgui.get_style().window_padding.x + 8, rect.get_center().y
+    hand.ctx.mouse_move_to_pos(place)
+    hand.ctx.yield_(2)
+    return place
+
+
 def place_of(hand: Hand, point: Any) -> tuple[float, float]:
     """Where a point of the scene is on the screen."""
     left, top, width, height = hand.window.app.rectangle

@@ -2,15 +2,12 @@
 
 from typing import get_args
 
-from imgui_bundle import hello_imgui, imgui
-
 from glrt.settings import Cost
 from glrt.view.app import App
 from glrt.view.compared_picture import Pairing
 from glrt.view.controls import Control, choice, switch
 from glrt.view.viewport.views import HELP, VIEWS
-from glrt.view.widgets.fields import beside, button, edited, room_for, tip
-from glrt.view.widgets.steady_widget import ANCHOR
+from glrt.view.widgets.fields import beside, button, edited, tip
 
 VIEW = choice("view", HELP, Cost.FREE, VIEWS)
 _MOST = "the difference, relative to the kept picture, that is shown in the strongest colour"
@@ -25,6 +22,13 @@ _GOES_ON = (
 GOES_ON = switch("A_goes_on", _GOES_ON, Cost.RECOMPILE)
 _PAIRING = "what A and B have in common: seconds of rendering, or samples of each pixel"
 PAIRING = choice("pairing", _PAIRING, Cost.FREE, get_args(Pairing))
+_WIPE = "where the line parts A, to its left, from B: as a share of the picture's width"
+WIPE = Control("wipe", "number", _WIPE, Cost.FREE, low=0.0, high=1.0, slider=(0.0, 1.0))
+_DIFFERENCE = (
+    "the change by the edits since then, pixel by pixel; A is rendered again at the seeds and "
+    "samples of B, so that the noise of both is the same and drops out: that takes as long as B did"
+)
+DIFFERENCE = switch("show the difference", _DIFFERENCE, Cost.FREE)
 BESIDE = switch("side_by_side", "A to the left of B, instead of a line between them", Cost.FREE)
 
 
@@ -67,14 +71,8 @@ def draw_compare(app: App) -> None:
     if not show.kept:
         return
     _slot(app)
-    imgui.set_next_item_width(room_for("wipe", hello_imgui.em_size(9.5)))
-    _, show.wipe = imgui.slider_float("wipe", show.wipe, 0.0, 1.0, "%.2f")
-    ANCHOR.note()
-    _, is_difference = imgui.checkbox("show the difference", show.view == "difference")
-    tip(
-        "The change by the edits since then, pixel by pixel. A is rendered again at the seeds and "
-        "samples of B, so that the noise of both is the same and drops out: that takes as long as "
-        "B did."
-    )
-    if is_difference != (show.view == "difference"):
+    wipe = edited(WIPE, show.wipe)
+    show.wipe = show.wipe if wipe is None else wipe
+    is_difference = edited(DIFFERENCE, show.view == "difference")
+    if is_difference is not None:
         show.view = "difference" if is_difference else "picture"

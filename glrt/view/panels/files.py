@@ -8,14 +8,15 @@ from glrt.core.text import escaped
 from glrt.scene.scenefile.catalog import scene_names
 from glrt.view.app import App
 from glrt.view.files import Files
-from glrt.view.widgets.fields import beside, button, room_for, tip
+from glrt.view.widgets.fields import beside, button, tip
+from glrt.view.widgets.rows import WORDS, Row
 
 
 def draw_files(app: App) -> None:
     """Draw the widgets to open scenes, and to save pictures and scenes."""
     files = app.files
     _chooser(files)
-    _recent(files)
+    Row("recent", WORDS).draw(lambda: _recent(files))
     files.open_path, entered = _path("open", files.open_path, "scene, model or picture")
     tip("A scene file, a model, or a picture rendered by glrt: that opens its scene and settings")
     beside("open")
@@ -47,7 +48,10 @@ def draw_files(app: App) -> None:
 def _chooser(files: Files) -> None:
     names = scene_names()
     index = names.index(files.source) if files.source in names else -1
-    imgui.set_next_item_width(room_for("scene", hello_imgui.em_size(12)))
+    Row("scene", WORDS).draw(lambda: _scenes(files, names, index))
+
+
+def _scenes(files: Files, names: list[str], index: int) -> None:
     if not imgui.begin_combo("scene", names[index] if index >= 0 else "one of glrt's"):
         return
     for number, name in enumerate(names):
@@ -58,7 +62,6 @@ def _chooser(files: Files) -> None:
 
 def _recent(files: Files) -> None:
     """Draw the list of recent files, with their folders, since names may be equal."""
-    imgui.set_next_item_width(room_for("recent", hello_imgui.em_size(12)))
     if not imgui.begin_combo("recent", "opened lately"):
         return
     for number, source in enumerate(files.recent):

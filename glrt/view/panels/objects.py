@@ -4,7 +4,7 @@ from collections import Counter
 from functools import partial
 from typing import Any
 
-from imgui_bundle import hello_imgui, imgui
+from imgui_bundle import imgui
 
 from glrt.core.memo import kept_for_the_same
 from glrt.scene.scene import Scene
@@ -19,7 +19,8 @@ from glrt.view.outliner.listing import OUTLINER
 from glrt.view.panels.materials import draw_material
 from glrt.view.panels.media import draw_medium
 from glrt.view.widgets.cost_badges import tag
-from glrt.view.widgets.fields import beside, button, edited_fields, named, room_for, tip
+from glrt.view.widgets.fields import beside, button, edited_fields, named, tip
+from glrt.view.widgets.rows import WORDS, Row
 from glrt.view.widgets.steady_widget import ANCHOR
 
 _NONE = "nothing"
@@ -51,7 +52,10 @@ def _chooser(app: App) -> None:
     """Draw a list of all objects; only the visible rows are drawn, as there may be thousands."""
     objects, index = app.session.scene.objects, app.selected
     row = 0 if app.selected_shape is None or index is None else index + 1
-    imgui.set_next_item_width(room_for("object", hello_imgui.em_size(12)))
+    Row("object", WORDS).draw(lambda: _list(app, objects, row))
+
+
+def _list(app: App, objects: tuple[Shape, ...], row: int) -> None:
     is_open = imgui.begin_combo("object", _row(objects, row))
     if not is_open:
         ANCHOR.note()

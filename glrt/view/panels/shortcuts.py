@@ -81,8 +81,15 @@ def draw_keys(app: App) -> None:
         if _is_pressed(app, action):
             act(app)
             app.is_deaf = "ctrl" in modifiers()  # keys released after Ctrl move nothing
-    if not held and not imgui.is_any_item_active() and not imgui.is_mouse_down(0):
+    if not held and not imgui.is_any_item_active() and not _may_click_again():
         app.session.history.settle()
+
+
+def _may_click_again() -> bool:
+    """Whether the mouse is down, or another click would be a double one, of the same gesture."""
+    io = imgui.get_io()
+    since = imgui.get_time() - io.mouse_clicked_time[0]
+    return bool(imgui.is_mouse_down(0) or 0 <= since < io.mouse_double_click_time)
 
 
 def modifiers() -> list[str]:

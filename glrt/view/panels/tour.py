@@ -16,9 +16,9 @@ STEPS = (
     ),
     (
         "Change the light",
-        "Drag the intensity or a colour under Light. The word next to each control says what an "
-        "edit costs: relight keeps all samples, restart discards them, recompile compiles a kernel "
-        "first.",
+        "Drag the intensity or a colour under Light. The mark next to each control shows what an "
+        "edit costs. Ring with a dot: all samples stay. Disk: they are discarded. Square: a kernel "
+        "is compiled first.",
     ),
     (
         "Edit objects",

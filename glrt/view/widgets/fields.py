@@ -1,27 +1,24 @@
 """Widgets for controls, with the cost of an edit: a value in, the edited value out."""
 
 import math
-from collections.abc import Callable, Mapping
-from typing import Any, TypeVar
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
-from imgui_bundle import ImVec2, hello_imgui, imgui
+from imgui_bundle import hello_imgui, imgui
 
 from glrt.settings import Cost
 from glrt.view.controls import MEANING, Control
 from glrt.view.state.explanations import explanation_of
-from glrt.view.widgets.cost_badges import tag, tags, tags_start
+from glrt.view.widgets.cost_badges import tags
 from glrt.view.widgets.finder import FINDER
 from glrt.view.widgets.reset import by_gestures, gesture_texts
+from glrt.view.widgets.rows import LEAST, WORDS, Row
 from glrt.view.widgets.slider_text import Slider, share_of, text_next_to_grip
 from glrt.view.widgets.steady_widget import ANCHOR
 from glrt.view.widgets.tips import explain
 
-Drawn = TypeVar("Drawn")
-
 _MOST_DIGITS = 20  # of an integer: more are beyond any limit, and Python reads 4300 at most
-LEAST = 4.0  # em, the height of a letter: least width of a widget with its label next to it
-WORDS = 7.0  # em: the same for one that shows a word or a name
 _MOST_ROWS = 14  # of a list without scrolling
 _TOLD = 8.0  # em: from the left edge of a list to the explanations of its words
 _NO_TOOLTIP = imgui.ColorEditFlags_.no_tooltip.value
@@ -36,44 +33,24 @@ def edited(control: Control, value: Any, name: str = "") -> Any:
     label = f"{control.label}##{name}" if name else control.label
     if FINDER.lists(label, control, value):
         return None
-    least = hello_imgui.em_size(WORDS if control.kind == "choice" else LEAST)
-    is_narrow = control.kind != "switch" and _room_next_to(control.label) < least
-    corner = imgui.get_cursor_screen_pos()
-    changed, new = (_drawn_below if is_narrow else _drawn_next_to)(control, label, value)
+    corner, told = imgui.get_cursor_screen_pos(), _told(control)
+    row = Row(control.label, WORDS if control.kind == "choice" else LEAST)
+    drawn = _by_label(control, imgui.get_id(label), value)
+    explain(told)
+    below = row.draw(lambda: _draw(control, label, value), is_square=control.kind == "switch")
+    below = by_gestures(below, control, 0, value, is_label=False)
+    tip(told, imgui.get_id(label))
+    tags(control.costs)
     FINDER.mark(label, corner)
+    changed, new = drawn if drawn[0] else below
     return _clamped(control, new) if changed else None
 
 
-def _drawn_next_to(control: Control, label: str, value: Any) -> tuple[bool, Any]:
-    width = _width_next_to(control.label)
-    imgui.set_next_item_width(width)
-    drawn = _draw(control, label, value)
-    is_label = imgui.get_io().mouse_pos.x > imgui.get_item_rect_min().x + width
-    drawn = by_gestures(drawn, control, imgui.get_id(label), value, is_label)
-    tooltip(control, label)
-    tags(control)
-    return drawn
-
-
-def _drawn_below(control: Control, label: str, value: Any) -> tuple[bool, Any]:
-    """Draw a widget below its label; the widget's own label, its id, is cut off."""
-    imgui.text(control.label)
-    drawn = by_gestures((False, value), control, imgui.get_id(label), value, is_label=True)
-    tags(control)
-    below = _clipped(lambda: _draw(control, label, value))
-    below = by_gestures(below, control, 0, value, is_label=False)
-    tooltip(control, label)
-    return drawn if drawn[0] else below
-
-
-def _clipped(draw: Callable[[], Drawn]) -> Drawn:
-    """Draw a widget as wide as the panel, with its own label cut off."""
-    corner, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail().x
-    imgui.push_clip_rect(corner, corner + ImVec2(room, imgui.get_frame_height()), True)
-    imgui.set_next_item_width(room)
-    drawn = draw()
-    imgui.pop_clip_rect()
-    return drawn
+def _by_label(control: Control, widget: int, value: Any) -> tuple[bool, Any]:
+    """Return what a gesture on the label drawn last does; a click on that of a switch turns it."""
+    if control.kind == "switch":
+        return imgui.is_item_clicked(), not value
+    return by_gestures((False, value), control, widget, value, is_label=True)
 
 
 def button(label: str, is_enabled: bool = True) -> bool:
@@ -96,16 +73,9 @@ def named(label: str, value: str, name: str) -> str:
         _, text = imgui.input_text(f"{label}##{name}", value, flags)
         return text, imgui.is_item_deactivated_after_edit()
 
-    if _room_next_to(label) < hello_imgui.em_size(WORDS):
-        imgui.text(label)
-        tag(Cost.FREE)
-        text, is_done = _clipped(draw)
-        ANCHOR.note()
-    else:
-        imgui.set_next_item_width(_width_next_to(label))
-        text, is_done = draw()
-        ANCHOR.note()
-        tag(Cost.FREE)
+    text, is_done = Row(label, WORDS).draw(draw)
+    ANCHOR.note()
+    tags(((Cost.FREE, ""),))
     return text.strip() if is_done and text.strip() != value else ""
 
 
@@ -117,12 +87,6 @@ def beside(text: str) -> None:
         imgui.new_line()
 
 
-def room_for(label: str, usual: float) -> float:
-    """Return the width of a widget that leaves room for a label next to it, in pixels."""
-    beside = imgui.calc_text_size(label).x + imgui.get_style().item_inner_spacing.x
-    return max(hello_imgui.em_size(3.5), min(usual, imgui.get_content_region_avail().x - beside))
-
-
 def tip(text: str, widget: int = 0) -> None:
     """Show a tooltip, in short lines, when the mouse rests on the item drawn last.
 
@@ -132,29 +96,17 @@ def tip(text: str, widget: int = 0) -> None:
     explain(text)
 
 
-def tooltip(control: Control, label: str) -> None:
-    """Show a tooltip on the item drawn last: what it does, its unit and its costs."""
+def _told(control: Control) -> str:
+    """Return the text of a control's tooltip: what it does, its unit and its costs."""
     help_text = control.help[:1].upper() + control.help[1:]
     unit = f" [{control.unit}]" if control.unit else ""
     costs = (
         f"{cost.value} {where}".strip() + f": {MEANING[cost]}" for cost, where in control.costs
     )
     why = explanation_of(control)
-    lines = [f"{help_text}{unit}", *gesture_texts(control), *costs, *(["", why] if why else [])]
-    told = "\n".join(lines)
-    tip(told, imgui.get_id(label))
-
-
-def _width_next_to(label: str) -> float:
-    """Return the width of a widget that leaves room for its label and its tag, in pixels."""
-    usual = min(hello_imgui.em_size(9.5), 0.36 * imgui.get_window_width())
-    return max(hello_imgui.em_size(3.5), min(usual, _room_next_to(label)))
-
-
-def _room_next_to(label: str) -> float:
-    """Return the width that a label and a tag leave in a line, in pixels."""
-    beside = imgui.calc_text_size(label).x + hello_imgui.em_size(1)
-    return tags_start() - imgui.get_cursor_pos_x() - beside
+    return "\n".join(
+        [f"{help_text}{unit}", *gesture_texts(control), *costs, *(["", why] if why else [])]
+    )
 
 
 def _draw(control: Control, label: str, value: Any) -> tuple[bool, Any]:
@@ -214,8 +166,6 @@ def _radiance(label: str, value: Any) -> tuple[bool, Any]:
     imgui.same_line(0.0, room)
     if hue := _hue([part / brightest for part in value]):
         changed, parts = True, [brightest * part for part in hue]
-    imgui.same_line(0.0, room)
-    imgui.text(name)
     imgui.end_group()
     imgui.pop_id()
     return changed, tuple(parts)
