@@ -18,6 +18,7 @@ from glrt.rendering.stopping import Interruption
 from glrt.scene.scene import Scene
 from glrt.settings import Denoise, Settings, settings_for
 from glrt.view.app import App
+from glrt.view.bars.framed import draw_picture
 from glrt.view.event_wait import EventWait
 from glrt.view.file_watch import Watch
 from glrt.view.messages import Messages
@@ -31,7 +32,6 @@ from glrt.view.panels.panel import draw_panel
 from glrt.view.panels.plots import draw_figures
 from glrt.view.panels.shortcuts import draw_keys
 from glrt.view.panels.tour import draw_tour
-from glrt.view.panels.viewport import draw_viewport
 from glrt.view.recovery.headers import recovery_folder
 from glrt.view.recovery.keeper import Recovery
 from glrt.view.recovery.lost_display import handle_lost_display
@@ -132,7 +132,7 @@ class Window:
         docking.dockable_windows = [
             _part(PARTS[0], "Side", lambda: draw_panel(self.app)),
             _part(PARTS[1], "Below", lambda: draw_figures(self.app)),
-            _part(PARTS[2], "MainDockSpace", lambda: draw_viewport(self.app)),
+            _part(PARTS[2], "MainDockSpace", lambda: draw_picture(self.app)),
         ]
         return docking
 

@@ -122,6 +122,20 @@ def test_a_plot_holds_all_looks_and_a_tick_of_each_axis() -> None:
         assert any(low <= tick <= high for tick in ticks)
 
 
+def test_a_plot_holds_the_way_to_a_target_that_is_not_too_far() -> None:
+    progress = Progress()
+    assert progress.way_to(0.02) == ([], []), "nothing is known yet"
+    for look in (seen(40, 1.0, 0.2), seen(160, 4.0, 0.1)):
+        progress.record(look, 0.0)
+    assert progress.way_to(0.05) == ([4.0, pytest.approx(16.0)], [0.1, 0.05])
+    _, last, least, _ = progress.limits(0.05)
+    assert last > 16
+    assert least < 0.05
+    for reached_or_far in (0.1, 0.2, 0.1 / 10.1):
+        assert progress.way_to(reached_or_far) == ([], [])
+        assert progress.limits(reached_or_far) == progress.limits()
+
+
 @pytest.mark.parametrize("error", [0.0, math.inf])
 def test_a_look_that_no_logarithm_has_a_place_for_is_left_out_of_the_plot(error: float) -> None:
     progress = Progress()

@@ -49,7 +49,6 @@ SLOW = (  # half a second each, or more
     "glass_is_tinted_and_nests",
     "a_list_reports_what_its_words_mean",
     "a_lamp_is_dimmed_where_it_is_edited",
-    "lines_of_text_lie_next_to_the_view_from_outside",
     "an_object_is_edited_in_the_panel",
     "an_object_is_chosen_in_a_list_of_thousands_and_a_frame_does_not_go_through_them",
     "a_texture_is_turned",

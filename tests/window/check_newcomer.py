@@ -5,13 +5,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from imgui_bundle import ImVec2, imgui
+from imgui_bundle import imgui
 
 from glrt.view import file_dialogs
 from glrt.view.controls import replaced
-from glrt.view.panels import viewport
-from glrt.view.panels.pair_images import draw_notice
-from glrt.view.panels.path_overlay import place_of_outside
 from glrt.view.widgets import fields
 from tests.window.check_layout import resized
 from tests.window.gestures import add, ball, click, press, reported_lines
@@ -191,33 +188,6 @@ def rows_of_a_narrow_panel_are_not_cut(hand: Hand) -> None:
             ctx.item_close(f"//Controls/{title}")
         resized(hand, (usual[0], usual[1]))
         app.selected = None
-
-
-@check
-def lines_of_text_lie_next_to_the_view_from_outside(hand: Hand) -> None:
-    """In a small window, where that view takes much of the picture's width."""
-    app = hand.window.app
-    usual = tuple(map(int, hand.there(lambda: tuple(imgui.get_io().display_size))))
-    resized(hand, SMALLEST)
-    try:
-        press(hand, imgui.Key.p)
-        click(hand, (0.4, -1.0, 0.16))  # on the floor, in the lower half
-        hand.until(lambda: app.paths.found is not None)
-        places: list[tuple[float, float]] = []
-
-        def written(text: str, corner: ImVec2, width: float = 0.0) -> float:
-            places.append((corner.x, width))
-            return draw_notice(text, corner, width)
-
-        with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(viewport, "draw_notice", written)
-            hand.until(lambda: bool(places))
-        box = place_of_outside(app, app.rectangle)
-        assert box
-        assert box[0] > app.rectangle[0], "it is to the right, where no pixel is"
-        assert all(left + width <= box[0] + 1 for left, width in places), (places, box)
-    finally:
-        resized(hand, (usual[0], usual[1]))
 
 
 @check

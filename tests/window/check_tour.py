@@ -1,14 +1,10 @@
 """The tour of a first start."""
 
-import pytest
-from imgui_bundle import ImVec2, imgui
+from imgui_bundle import imgui
 
 from glrt.view.controls import replaced
-from glrt.view.panels import viewport
-from glrt.view.panels.navigation import NOTICE
-from glrt.view.panels.pair_images import draw_notice
 from glrt.view.panels.tour import STEPS
-from tests.window.gestures import ball, click, press
+from tests.window.gestures import ball, click
 from tests.window.hand import Hand, check
 
 
@@ -64,31 +60,6 @@ def the_tour_keeps_nobody_from_the_picture(hand: Hand) -> None:
     ctx.yield_(2)
     assert app.tour_step is None
     assert app.preferences.tour  # it comes again at the next start
-
-
-@check
-def lines_in_the_picture_are_not_under_the_tour(hand: Hand) -> None:
-    app = hand.window.app
-    lines: list[tuple[float, float, float]] = []
-    hand.there(lambda: app.prefer(replaced(app.preferences, tour=True)))
-    app.tour_step = 0
-    hand.ctx.yield_(3)
-
-    def written(text: str, corner: ImVec2, width: float = 0.0) -> float:
-        if text == NOTICE:
-            lines.append((corner.x, corner.y, width))
-        return draw_notice(text, corner, width)
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(viewport, "draw_notice", written)
-        press(hand, imgui.Key.f6)
-        hand.until(lambda: bool(lines))
-    box = hand.there(lambda: imgui.internal.find_window_by_name("###tour"))
-    left, top, width = lines[-1]
-    beside = left + width <= box.pos.x + 1
-    assert beside or top >= box.pos.y + box.size.y - 1
-    press(hand, imgui.Key.escape)
-    hand.there(lambda: app.prefer(replaced(app.preferences, tour=False)))
 
 
 def shown(hand: Hand) -> bool:

@@ -9,15 +9,16 @@ from typing import Any
 
 import numpy as np
 import pytest
-from imgui_bundle import ImVec2, imgui
+from imgui_bundle import imgui
 
 import glfw  # isort: skip
 
 from glrt.scene.camera import Camera
 from glrt.scene.scene import Scene
+from glrt.view.app import App
+from glrt.view.bars import framed
+from glrt.view.bars.status import draw_status
 from glrt.view.controls import replaced
-from glrt.view.panels import viewport
-from glrt.view.panels.pair_images import draw_notice
 from glrt.view.viewport.orbit import axes
 from tests.window.hand import SMALL, WAIT, Hand
 
@@ -165,15 +166,15 @@ def answer(hand: Hand, name: str) -> None:
 
 @contextmanager
 def reported_lines() -> Iterator[list[str]]:
-    """Lines of text that are drawn over the picture meanwhile."""
+    """Lines of text that stand below the picture meanwhile."""
     lines: list[str] = []
 
-    def written(text: str, corner: ImVec2, width: float = 0.0) -> float:
-        lines.append(text)
-        return draw_notice(text, corner, width)
+    def written(app: App, messages: list[str]) -> None:
+        lines.extend(messages)
+        draw_status(app, messages)
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(viewport, "draw_notice", written)
+        patch.setattr(framed, "draw_status", written)
         yield lines
 
 

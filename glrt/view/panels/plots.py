@@ -3,7 +3,7 @@
 import math
 
 import numpy as np
-from imgui_bundle import ImVec2, hello_imgui, imgui, implot
+from imgui_bundle import ImVec2, ImVec4, hello_imgui, imgui, implot
 
 from glrt.core.memo import kept_for_the_same
 from glrt.plan.explanation import explain
@@ -17,6 +17,10 @@ from glrt.view.state.session import Session
 from glrt.view.widgets.fields import tip
 
 _MOST_TICKS = 5  # of an axis: more labels would overlap
+_SHADE = 0.25  # opacity of a band
+_DOT = 2.5  # pixels: radius of a look in the plot
+_BLUE, _ORANGE = ImVec4(0.30, 0.58, 0.90, 1.0), ImVec4(0.85, 0.58, 0.13, 1.0)
+_GRAY, _GREEN = ImVec4(0.6, 0.6, 0.6, 1.0), ImVec4(0.30, 0.66, 0.36, 1.0)
 _BESIDE = 36  # em: in a narrower part of the window, the plot is below the text
 
 _DOUBT = ",\nnot to be believed: few samples carry much of the light"
@@ -54,6 +58,17 @@ def figures(app: App) -> list[str]:
     if progress.last and progress.last.nonfinite:
         lines.append(f"{progress.last.nonfinite:,} samples were not finite and were dropped")
     return lines
+
+
+def short_figures(app: App) -> str:
+    """Return samples, error and frames a second, in one line."""
+    session, last, load = app.session, app.progress.last, app.load.last
+    parts = [
+        _samples(session.samples, session.settings.samples),
+        f"{_percent(last.error)}" if last else "",
+        f"{load.rate:.3g} frames/s" if load else "",
+    ]
+    return "  ".join(filter(None, parts))
 
 
 def load_text(meter: LoadMeter) -> str:
@@ -159,12 +174,12 @@ def _contents(plan: Plan) -> tuple[str, str]:
 
 
 def _plot(app: App) -> None:
-    """Plot the error over seconds, both logarithmic, and the slope -1/2 that noise follows."""
+    """Plot the error over seconds, both logarithmic: the looks, and the way to the target."""
     looks = app.progress.drawn
     size = ImVec2(-1, max(imgui.get_content_region_avail().y, hello_imgui.em_size(6)))
     if not implot.begin_plot("##error", size, implot.Flags_.no_menus.value):
         return
-    implot.setup_legend(implot.Location_.east.value, implot.LegendFlags_.outside.value)
+    implot.setup_legend(implot.Location_.north_east.value)
     implot.setup_axes("seconds of rendering", "error")
     implot.setup_axis_scale(implot.ImAxis_.x1.value, implot.Scale_.log10.value)
     implot.setup_axis_scale(implot.ImAxis_.y1.value, implot.Scale_.log10.value)
@@ -176,19 +191,47 @@ def _plot(app: App) -> None:
         implot.setup_axis_ticks(axis.value, list(ticks), list(ticks.values()))
     implot.setup_axes_limits(*limits, implot.Cond_.always.value)
     if len(app.progress.relit) > 1:
-        _line("before relight", app.progress.relit)
+        _line("before relight", app.progress.relit, _GRAY)
     if app.pair.slot and len(app.pair.slot.progress.drawn) > 1:
-        _line("A", app.pair.slot.progress.drawn)
+        _line("A", app.pair.slot.progress.drawn, _ORANGE)
     if len(looks) > 1:
-        _line("B" if app.pair.slot else "error", looks)
+        _band(looks)
+        _line("B" if app.pair.slot else "error", looks, _BLUE)
         along, down = app.progress.slope()
-        implot.plot_line("1 / sqrt(time)", np.array(along), np.array(down))
+        gray = implot.Spec(line_color=_GRAY)
+        implot.plot_line("##slope", np.array(along), np.array(down), gray)
+    _way(app.progress, app.preferences.target_error)
     implot.end_plot()
+
+
+def _band(looks: list[Look]) -> None:
+    """Shade the confidence band of the errors."""
+    seconds = np.array([look.seconds for look in looks])
+    _, low, high = (np.array(part) for part in zip(*(look.band for look in looks), strict=True))
+    least = low[low > 0].min(initial=1)  # a logarithmic axis has no 0
+    implot.plot_shaded("##band", seconds, np.maximum(low, least), high, _shade(_BLUE))
+
+
+def _shade(color: ImVec4) -> implot.Spec:
+    return implot.Spec(fill_color=color, fill_alpha=_SHADE)
+
+
+def _way(progress: Progress, target: float) -> None:
+    """Draw the target as a line, and the forecast of the way there, as wide as its doubt."""
+    level = implot.Spec(line_color=_GREEN, flags=implot.InfLinesFlags_.horizontal.value)
+    implot.plot_inf_lines("target", np.array([target]), level)
+    seconds, errors = map(np.array, progress.way_to(target))
+    if not len(seconds):
+        return
+    error, low, high = progress.drawn[-1].band
+    lower, upper = errors * low / error, errors * high / error
+    implot.plot_shaded("##forecast", seconds, lower, upper, _shade(_GRAY))
+    implot.plot_line("##way", seconds, errors, implot.Spec(line_color=_GRAY))
 
 
 def _limits(app: App) -> tuple[float, float, float, float]:
     """Return the limits of the plot, for the errors of B and of A if it gathers samples."""
-    own = app.progress.limits()
+    own = app.progress.limits(app.preferences.target_error)
     if not app.pair.slot or len(app.pair.slot.progress.drawn) < 2:
         return own
     other = app.pair.slot.progress.limits()
@@ -198,9 +241,10 @@ def _limits(app: App) -> tuple[float, float, float, float]:
     return min(first), max(last), min(least), max(most)
 
 
-def _line(name: str, looks: list[Look]) -> None:
+def _line(name: str, looks: list[Look], color: ImVec4) -> None:
     seconds = np.array([look.seconds for look in looks])
-    implot.plot_line(name, seconds, np.array([look.error for look in looks]))
+    dots = implot.Spec(line_color=color, marker=implot.Marker_.circle.value, marker_size=_DOT)
+    implot.plot_line(name, seconds, np.array([look.error for look in looks]), dots)
 
 
 def _ticks(low: float, high: float) -> list[float]:

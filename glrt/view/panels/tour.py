@@ -4,7 +4,6 @@ from imgui_bundle import ImVec2, hello_imgui, imgui
 
 from glrt.view.app import App
 from glrt.view.controls import replaced
-from glrt.view.state.zoom import Rectangle
 from glrt.view.widgets.fields import button, tip
 
 STEPS = (
@@ -65,18 +64,6 @@ def draw_tour(app: App) -> None:
     imgui.end()
     if not is_open:
         app.tour_step = None
-
-
-def room_next_to_tour(seen: Rectangle) -> tuple[ImVec2, float]:
-    """Return where lines of text over the picture begin, and their width, clear of the box."""
-    left, top, width, _ = seen
-    box, least = imgui.internal.find_window_by_name("###tour"), hello_imgui.em_size(_LEAST)
-    is_clear = not (box and box.active) or box.pos.x > left + width
-    if is_clear or box.pos.y + box.size.y < top:
-        return ImVec2(left, top), width
-    if box.pos.x - left >= least:
-        return ImVec2(left, top), box.pos.x - left
-    return ImVec2(left, max(top, box.pos.y + box.size.y)), width
 
 
 def _tallest(width: float) -> float:

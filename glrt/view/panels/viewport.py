@@ -19,9 +19,8 @@ from glrt.view.panels.pair_images import (
     draw_wipe,
     draw_wipe_handle,
 )
-from glrt.view.panels.path_overlay import draw_outside, draw_paths, paths_text, place_of_outside
+from glrt.view.panels.path_overlay import draw_outside, draw_paths, paths_text
 from glrt.view.panels.shortcuts import modifiers
-from glrt.view.panels.tour import room_next_to_tour
 from glrt.view.state.keys import label
 from glrt.view.state.live_probes import notice_of_lag
 from glrt.view.state.zoom import Rectangle, common
@@ -38,10 +37,9 @@ _FADED = 0.2  # opacity of the outline during a drag
 _OUTLINE = (0.0, 0.0, 0.0, 0.6), (1.0, 0.62, 0.1, 1.0)
 
 
-def draw_viewport(app: App) -> None:
-    """Draw the content of the part of the window that holds the picture."""
-    settings = app.session.settings
-    here, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
+def draw_viewport(app: App, room: ImVec2) -> None:
+    """Draw the picture in a rectangle of `room` pixels, and what is shown over it."""
+    settings, here = app.session.settings, imgui.get_cursor_screen_pos()
     has_kept = bool(app.pair.picture) and app.show.drawn == "picture"
     if has_kept and app.pair.is_beside:
         room = ImVec2(room.x / 2, room.y)
@@ -71,9 +69,6 @@ def draw_viewport(app: App) -> None:
     low = ImVec2(seen[0], seen[1] + seen[3])
     if app.show.drawn != "picture":
         draw_legend(app.show, app.session, app.progress.last, low, seen[2])
-    place, width = _room_for_notices(app, seen)
-    for notice in filter(None, _notices(app)):
-        place.y += draw_notice(notice, place, width)
     if app.inspects:
         _pixel_values(app, seen)
 
@@ -85,16 +80,9 @@ def _share_under_mouse(app: App) -> tuple[float, float]:
     return (x - left) / width, (y - top) / height
 
 
-def _room_for_notices(app: App, seen: Rectangle) -> tuple[ImVec2, float]:
-    """Return where notices begin, and their width, clear of the tour and the view from outside."""
-    (place, width), box = room_next_to_tour(seen), place_of_outside(app, seen)
-    is_beside = box is not None and box[1] <= place.y < box[1] + box[3] and box[0] > place.x
-    return place, min(width, box[0] - place.x) if box and is_beside else width
-
-
-def _notices(app: App) -> tuple[str, ...]:
-    """Return the notices over the picture, a line each; "" for none."""
-    return (
+def notices(app: App) -> list[str]:
+    """Return what is said about the picture at present, a line each."""
+    lines = (
         app.show.notice(app.session),
         notice_of_lag(app.session.lag),
         paths_text(app),
@@ -105,6 +93,7 @@ def _notices(app: App) -> tuple[str, ...]:
         _zoom_text(app),
         app.messages.recent(time.perf_counter()),
     )
+    return [line for line in lines if line]
 
 
 def _black_text(app: App) -> str:

@@ -16,6 +16,7 @@ from glrt.view.state.session import Session
 GROWTH = 1.25  # factor of the samples between looks at the error: a look takes time
 PAUSE = 0.5  # seconds between two looks, at least
 MARGIN = 1.6  # factor by which a plot exceeds its looks: its square is more than 5 / 2
+FARTHEST = 100.0  # times as long as so far: largest forecast that a plot shows
 EMPTY = (0.1, 100.0, 0.01, 1.0)  # the limits of a plot that has no line yet
 
 
@@ -135,19 +136,32 @@ class Progress:
         unit = int(10 ** max(0, math.floor(math.log10(max(needed, 1))) - 1))
         return unit * math.ceil(needed / unit)
 
-    def limits(self) -> tuple[float, float, float, float]:
+    def limits(self, target: float = math.inf) -> tuple[float, float, float, float]:
         """Return first and last second, least and largest error, as limits of a plot of the looks.
 
-        However close the looks are, there is a tick of 1, 2 or 5 between the limits.
+        The way to the target is inside, if it is not too long. However close the looks are, there
+        is a tick of 1, 2 or 5 between the limits.
         """
         looks = [*self.relit, *self.drawn]
         if len(looks) < 2:
             return EMPTY
         seconds, errors = [look.seconds for look in looks], [look.error for look in looks]
         errors += self.slope()[1] if self.drawn else []
+        way = self.way_to(target)
+        seconds, errors = seconds + way[0], errors + way[1]
         ends = min(seconds), max(seconds), min(errors), max(errors)
         least, most = 1 / MARGIN, MARGIN
         return ends[0] * least, ends[1] * most, ends[2] * least, ends[3] * most
+
+    def way_to(self, target: float) -> tuple[list[float], list[float]]:
+        """Return seconds and errors from the last look to a target, as 1 / sqrt(time).
+
+        Both are empty if the target is reached, or takes more than FARTHEST times as long.
+        """
+        last = self.drawn[-1] if self.drawn else None
+        if last is None or not 1 < (last.error / target) ** 2 <= FARTHEST:
+            return [], []
+        return [last.seconds, last.seconds * (last.error / target) ** 2], [last.error, target]
 
     def slope(self) -> tuple[list[float], list[float]]:
         """Return seconds and errors of the line of slope -1/2 through the last look."""

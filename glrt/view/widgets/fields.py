@@ -46,6 +46,15 @@ def edited(control: Control, value: Any, name: str = "") -> Any:
     return _clamped(control, new) if changed else None
 
 
+def compact(control: Control, value: Any, width: float) -> Any:
+    """Draw the same widget alone, `width` pixels wide: its tooltip has the costs."""
+    imgui.set_next_item_width(width)
+    drawn = _draw(control, f"##{control.label}", value)
+    changed, new = by_gestures(drawn, control, 0, value, is_label=False)
+    explain(_told(control))
+    return _clamped(control, new) if changed else None
+
+
 def _by_label(control: Control, widget: int, value: Any) -> tuple[bool, Any]:
     """Return what a gesture on the label drawn last does; a click on that of a switch turns it."""
     if control.kind == "switch":

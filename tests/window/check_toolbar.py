@@ -1,0 +1,109 @@
+"""The bars above and below the picture."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import pytest
+from imgui_bundle import imgui
+
+from glrt.view.app import App
+from glrt.view.bars import framed
+from glrt.view.bars.status import draw_status
+from glrt.view.bars.toolbar import BUTTONS
+from glrt.view.state.zoom import FIT
+from tests.window.check_layout import resized
+from tests.window.gestures import press
+from tests.window.hand import Hand, check
+
+NARROW, WIDE = (640, 400), (1240, 800)
+
+
+@contextmanager
+def sized(hand: Hand, size: tuple[int, int]) -> Iterator[None]:
+    """A window of this size for a while."""
+    usual: Any = tuple(map(int, hand.there(lambda: tuple(imgui.get_io().display_size))))
+    resized(hand, size)
+    try:
+        yield
+    finally:
+        resized(hand, usual)
+
+
+@check
+def the_bar_above_the_picture_edits_what_the_panel_shows(hand: Hand) -> None:
+    app, session, ctx = hand.window.app, hand.session, hand.ctx
+    ctx.set_ref("Picture")
+    with sized(hand, WIDE):
+        ctx.combo_click("##method/nee")
+        hand.settle()
+        assert session.settings.method == "nee"
+        ctx.item_input_value("##exposure", 1.5)
+        hand.settle()
+        assert session.settings.exposure == 1.5
+        ctx.combo_click("##view/error")
+        hand.until(lambda: app.show.drawn == "error")
+    hand.there(app.undo)
+    assert (session.settings.exposure, session.settings.method) == (0.0, "nee")
+
+
+@check
+def its_buttons_do_what_their_keys_do(hand: Hand) -> None:
+    app, ctx, start = hand.window.app, hand.ctx, hand.session.scene.camera
+    hand.there(lambda: app.turn(0.1, 0.1, about_camera=False))
+    ctx.item_click("//Picture/home")
+    hand.settle()
+    assert hand.session.scene.camera == start
+    hand.there(lambda: app.zoom_to(2.0))
+    ctx.item_click("//Picture/fit")
+    ctx.yield_(2)
+    assert app.zoom == FIT
+    ctx.item_click("//Picture/keys")
+    ctx.yield_(2)
+    assert app.shows_keys
+    press(hand, imgui.Key.escape)
+    ctx.item_click("//Picture/find")
+    ctx.yield_(2)
+    assert app.shows_palette
+    press(hand, imgui.Key.escape)
+
+
+@check
+def a_narrow_bar_ends_before_a_widget_that_would_be_cut(hand: Hand) -> None:
+    def there() -> set[str]:
+        hand.ctx.yield_(3)
+        names = (*BUTTONS, "##view", "##method", "##exposure")
+        flags = int(imgui.test_engine.TestOpFlags_.no_error)
+        return {it for it in names if hand.ctx.item_info(f"//Picture/{it}", flags).id_}
+
+    with sized(hand, WIDE):
+        assert len(there()) == len(BUTTONS) + 3
+    with sized(hand, NARROW):
+        shown = there()
+        right = hand.there(lambda: imgui.internal.find_window_by_name("Picture").inner_rect.max.x)
+        assert {"open", "save"} <= shown
+        assert "##exposure" not in shown
+        for name in shown:
+            assert hand.ctx.item_info(f"//Picture/{name}").rect_full.max.x <= right, name
+
+
+@check
+def messages_stand_below_the_picture_whatever_its_size(hand: Hand) -> None:
+    tops: list[float] = []
+
+    def placed(app: App, lines: list[str]) -> None:
+        tops.append(imgui.get_cursor_screen_pos().y)
+        draw_status(app, lines)
+
+    hand.session.paused = True
+    for size in (NARROW, WIDE):
+        with sized(hand, size):
+            with pytest.MonkeyPatch.context() as patch:
+                patch.setattr(framed, "draw_status", placed)
+                hand.ctx.yield_(3)
+            _, top, _, height = hand.window.app.rectangle
+            picture = hand.there(lambda: imgui.internal.find_window_by_name("Picture"))
+            end = tops[-1] + imgui.get_text_line_height()
+            assert top + height <= tops[-1], size
+            assert end <= picture.inner_rect.max.y + 1, size
+            assert not picture.scrollbar_y, size
