@@ -94,8 +94,7 @@ def measure(
     drags: list[Drag] = []
     drawn_by: list[str] = []
     opened = load(scene)
-    if method:
-        opened = replaced(opened, render=settings_for(opened.render, method=method))
+    settings = settings_for(opened.render, **({"method": method} if method else {}))
 
     def script(window: Any) -> Script:
         app = window.app
@@ -106,8 +105,8 @@ def measure(
             yield from _dragged(window, what, step, seconds, drags)
         drawn_by.append(window.app.session.renderer.context.renderer)
 
-    play(opened, script, width=size[0], height=size[1])
-    words = scene, f"{size[0]} x {size[1]}", opened.render.method, *ways.values(), drawn_by[0]
+    play(scene, script, width=size[0], height=size[1], method=settings.method)
+    words = scene, f"{size[0]} x {size[1]}", settings.method, *ways.values(), drawn_by[0]
     return ", ".join(words), drags
 
 

@@ -1,8 +1,8 @@
 """The window, driven by a script: `python -m bench.window_tour drag`, `rest`, `idle`, `film`.
 
 `drag` measures frame times while the camera turns, `rest` while nothing is edited, `idle` what a
-complete picture takes of the processor; `film FILE.webp` makes the animation of the README. Without
-a display a virtual X server, Xvfb, is used.
+complete picture takes of the processor; `film FILE.webp` makes the picture of the window in the
+README. Without a display a virtual X server, Xvfb, is used.
 """
 
 import argparse
@@ -20,7 +20,7 @@ import numpy as np
 
 from bench.screens import screen
 from glrt.image.sources import load
-from glrt.scene.scene import Scene, with_lights
+from glrt.scene.scene import with_lights
 from glrt.settings import settings_for
 from glrt.view.state.preferences import Preferences
 
@@ -30,7 +30,9 @@ SETTLED, IDLE = 3.0, 20.0  # seconds after the picture is complete: let pass, an
 WARM = 30  # frames before a drag, for compilation and for the measurement of dispatch times
 STEP = 0.004  # motion per frame of a drag, in widths of the window
 SHARES = (50, 95, 99)  # percentiles of frame times
-FILM_SIZE = (620, 400)  # pixels
+LAMPS = "lamps"  # the scene of the film
+FILMED = {"width": 320, "height": 320, "samples": 512}
+SHOWN = 2500  # milliseconds for which the film shows each picture: a reader needs them
 MOST_BYTES = 300_000
 
 Script = Iterator[None]
@@ -90,7 +92,7 @@ def measure_drag(scene: str, width: int = 640, height: int = 480) -> tuple[str, 
             frames.append(Frame(time.perf_counter() - start, renderer.size, renderer.work))
         drawn_by.append(renderer.context.renderer)
 
-    play(load(scene), script, width=width, height=height)
+    play(scene, script, width=width, height=height)
     return f"{scene}, {width} x {height}, {drawn_by[0]}", frames
 
 
@@ -128,7 +130,7 @@ def measure_rest(scene: str, rests: bool, width: int = 640, height: int = 480) -
             times.append((time.perf_counter(), window.app.session.renderer.work))
             yield
 
-    play(load(scene), script, width=width, height=height, samples=WAITED)
+    play(scene, script, width=width, height=height, samples=WAITED)
     seconds, samples = np.array(times).T
     last = np.searchsorted(samples, 0.75 * samples[-1])
     rate = (samples[-1] - samples[last]) / (seconds[-1] - seconds[last]) * width * height / 1e6
@@ -161,7 +163,7 @@ def measure_idle(scene: str) -> tuple[float, float]:
         spent = time.perf_counter() - start
         found.extend([(time.process_time() - used) / spent, frames / spent])
 
-    play(load(scene), script, width=640, height=480, samples=32)
+    play(scene, script, width=640, height=480, samples=32)
     return found[0], found[1]
 
 
@@ -173,29 +175,27 @@ def idle_text(scene: str, share: float, rate: float) -> Iterator[str]:
 
 
 def make_film(file: Path) -> None:
-    """Film changes of lamps and of the camera; raises RuntimeError if the file is too large."""
+    """Film edits of lamps, by stills; raises RuntimeError if the file is too large."""
     from PIL import Image
 
-    scene, pictures = load("lamps"), []
+    scene, pictures = load(LAMPS), []
 
     def script(window: Any) -> Script:
         edits: list[Callable[[], object]] = [lambda: None]
-        for blue, amber in ((0.4, 1.0), (0.0, 1.5), (1.0, 2.5), (3.0, 0.5), (1.5, 1.0), (1.0, 1.0)):
+        for blue, amber in ((0.0, 1.5), (2.5, 0.3)):
             lit = with_lights(scene, {"blue": blue, "amber": amber})
             edits.append(partial(window.app.session.edit, lit))
-        edits += 4 * [partial(window.app.turn, 0.03, 0.0, about_camera=False)]
         for edit in edits:
             edit()
             yield from frames_until_done(window)
             screen = window.app.session.renderer.context.gl.screen
             size = screen.size
             pixels = np.frombuffer(screen.read(components=3, alignment=1), np.uint8)
-            shot = Image.fromarray(pixels.reshape(size[1], size[0], 3)[::-1])
-            pictures.append(shot.resize(FILM_SIZE))
+            pictures.append(Image.fromarray(pixels.reshape(size[1], size[0], 3)[::-1]))
 
-    play(scene, script, width=200, height=200, samples=64)
+    play(LAMPS, script, **FILMED)
     first, *rest = pictures
-    options: dict[str, Any] = {"duration": 700, "loop": 0, "quality": 60, "method": 6}
+    options: dict[str, Any] = {"duration": SHOWN, "loop": 0, "quality": 75, "method": 6}
     first.save(file, save_all=True, append_images=rest, **options)
     if file.stat().st_size > MOST_BYTES:
         raise RuntimeError(f"{file} has {file.stat().st_size} bytes, more than {MOST_BYTES}")
@@ -211,11 +211,12 @@ def frames_until_done(window: Any) -> Script:
         yield
 
 
-def play(scene: Scene, script: Callable[[Any], Script], **settings: Any) -> None:
+def play(source: str, script: Callable[[Any], Script], **settings: Any) -> None:
     """Open a window, continue the script after each frame, and close the window at its end."""
     from glrt.view.window import Window
 
-    window = Window(scene.title or "", scene, settings_for(scene.render, **settings))
+    scene = load(source)
+    window = Window(source, scene, settings_for(scene.render, **settings))
     window.params.ini_disable = True
 
     def with_defaults() -> Script:
