@@ -4,6 +4,7 @@ import time
 from collections.abc import Callable
 from dataclasses import InitVar, dataclass, field
 from pathlib import Path
+from typing import Literal
 
 from glrt.core.errors import GlrtError
 from glrt.gpu.glsl import files_reread
@@ -58,6 +59,7 @@ class App(Selection):
     rectangle: Rectangle = (0.0, 0.0, 1.0, 1.0)  # of the picture on the screen, in pixels
     zoom: Zoom = FIT
     inspects: bool = False  # whether the values of the pixel under the mouse are shown
+    handles: Literal["move", "turn"] = "move"  # what those of the selected object do
     is_picture_alone: bool = False  # whether the panels are hidden
     shows_keys: bool = False  # whether all keys are shown over the window
     shows_palette: bool = False  # whether words find controls and commands
@@ -129,6 +131,10 @@ class App(Selection):
         exposure = self.session.settings.exposure + stops
         if abs(exposure) <= MOST_STOPS:
             self.session.edit(None, "exposure", exposure=exposure)
+
+    def toggle_handles(self) -> None:
+        """Let the handles of the selected object turn it, or move it again."""
+        self.handles = "turn" if self.handles == "move" else "move"
 
     def toggle_panels(self) -> None:
         """Hide the panels so that the picture has the whole window, or show them again."""

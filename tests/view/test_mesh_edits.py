@@ -12,11 +12,12 @@ from glrt.gpu.struct_arrays import Arrays
 from glrt.rendering.pipelines import Tier, upload
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
+from glrt.scene.shapes.box import rotation
 from glrt.scene.shapes.mesh import Mesh
 from glrt.settings import Cost
 from glrt.view.edits.scene_edits import with_object
 from glrt.view.viewport.pick import pick
-from glrt.view.viewport.transform import moved_to, object_matrix, scaled, shifted
+from glrt.view.viewport.transform import moved_to, object_matrix, scaled, shifted, turned
 from tests.support.builders import lamp, plane, scene_of, sphere
 from tests.support.meshes import blob, icosphere, mesh
 
@@ -76,6 +77,20 @@ def test_a_mesh_is_moved_and_grows_about_its_middle() -> None:
     matrix = np.array(object_matrix(thing), np.float32).reshape(4, 4)
     matrix[3, :3] += (0.5, 0, 0)
     assert np.allclose(np.subtract(moved_to(thing, matrix).middle, thing.middle), [0.5, 0, 0])
+
+
+def test_a_mesh_turns_about_its_middle() -> None:
+    """Its vertices are where the turn brings them, also from a place with turns of its own."""
+    thing, turn = things().objects[0], rotation((10.0, 70.0, -40.0))
+    assert isinstance(thing, Mesh)
+    first = turned(thing, turn)
+    for before in (thing, first):
+        after = turned(before, turn)
+        assert isinstance(before, Mesh)
+        assert isinstance(after, Mesh)
+        middle = np.array(before.middle)
+        expected = (before.world_vertices - middle) @ turn.T + middle
+        assert np.allclose(after.world_vertices, expected, atol=1e-5)
 
 
 @pytest.mark.slow

@@ -14,6 +14,7 @@ from glrt.image.sources import load
 from glrt.rendering.renderer import Renderer
 from glrt.scene.camera import Camera
 from glrt.scene.scene import Scene
+from glrt.scene.shapes.box import rotation
 from glrt.scene.shapes.kinds import Shape
 from glrt.scene.shapes.plane import Plane
 from glrt.scene.shapes.quad import Quad
@@ -22,11 +23,13 @@ from glrt.view.edits.scene_edits import with_object
 from glrt.view.viewport import orbit
 from glrt.view.viewport.pick import pick, ray_through
 from glrt.view.viewport.transform import (
+    can_turn,
     moved_to,
     object_matrix,
     projection_matrix,
     scaled,
     shifted,
+    turned,
     view_matrix,
 )
 from tests.support.builders import box, cylinder, disk, lamp, plane, quad, scene_of, sphere
@@ -116,6 +119,36 @@ def test_a_gizmo_moves_the_middle(shape: Shape) -> None:
     moved = moved_to(shape, matrix.astype(np.float32))
     assert np.subtract(moved.middle, shape.middle) == pytest.approx([1, 2, 3], abs=1e-6)
     assert moved.reach == pytest.approx(shape.reach)
+
+
+@pytest.mark.parametrize("shape", SHAPES, ids=lambda shape: shape.shape)
+def test_a_gizmo_turns_about_the_middle(shape: Shape) -> None:
+    """Where a ray met the shape, the turned ray meets the turned one."""
+    turn = rotation((20.0, -35.0, 50.0))
+    matrix = np.array(object_matrix(shape)).reshape(4, 4)
+    matrix[:3, :3] = turn.T  # rows are images of the axes
+    after = moved_to(shape, matrix.ravel().astype(np.float32))
+    middle = np.array(shape.middle)
+    assert after.middle == pytest.approx(shape.middle, abs=1e-6)
+    random = np.random.default_rng(4)
+    hits = 0
+    for _ in range(100):
+        start = random.normal(size=3) * 3
+        aim = -start / np.linalg.norm(start) + random.normal(size=3) * 0.1
+        with np.errstate(all="ignore"):
+            ways = [
+                type(it).distances(np.array([it.row]), middle + frame @ start, frame @ aim)[0]
+                for it, frame in ((shape, np.eye(3)), (after, turn))
+            ]
+        assert ways[1] == pytest.approx(ways[0], rel=1e-4, nan_ok=True)
+        hits += np.isfinite(ways[0])
+    assert hits > 10
+
+
+def test_a_turn_of_nothing_changes_no_digit() -> None:
+    for shape in SHAPES:
+        assert turned(shape, np.eye(3)) is shape
+    assert not can_turn(next(it for it in SHAPES if it.shape == "sphere"))
 
 
 def test_shapes_grow_about_their_middle() -> None:

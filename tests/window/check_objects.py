@@ -40,6 +40,52 @@ def a_click_selects_and_restarts_nothing(hand: Hand) -> None:
 
 
 @check
+def handles_turn_an_object_about_its_middle_in_one_step(hand: Hand) -> None:
+    app, session = hand.window.app, hand.session
+    objects = session.scene.objects
+    number, lamp_ = next((n, it) for n, it in enumerate(objects) if it.material == "lamp")
+    app.selected = number
+    hand.ctx.yield_(3)
+    hand.ctx.key_press(imgui.Key.r.value)
+    hand.ctx.yield_(3)
+    assert app.handles == "turn"
+    before, steps = session.scene, session.history.steps
+    x, y = place_of(hand, lamp_.middle)
+    for radius in range(80, 20, -1):  # the outer ring turns in the plane of the picture
+        hand.ctx.mouse_move_to_pos(on_ring((x, y), radius, 0.0))
+        hand.ctx.yield_(2)
+        if hand.there(lambda: is_held(app)):
+            break
+    hand.ctx.mouse_down(0)
+    for angle in (0.1, 0.2, 0.3, 0.4):
+        hand.ctx.mouse_move_to_pos(on_ring((x, y), radius, angle))
+        hand.ctx.yield_(2)
+    hand.ctx.mouse_up(0)
+    hand.settle()
+    after: Any = session.scene.objects[number]
+    turned_by = np.degrees(np.arccos(cosine(after.edge_u, before.objects[number])))
+    assert 10 < turned_by < 30, turned_by
+    assert np.allclose(after.middle, lamp_.middle, atol=1e-4)
+    assert session.history.steps == steps + 1
+    hand.ctx.key_press(imgui.Key.r.value)
+    hand.ctx.yield_(2)
+    assert hand.window.app.handles == "move"
+    app.selected = None
+
+
+def on_ring(middle: tuple[float, float], radius: float, angle: float) -> tuple[float, float]:
+    """A place on a ring about a point of the screen, away from the rings of the axes."""
+    turn = math.pi / 4 + angle
+    return middle[0] + radius * math.cos(turn), middle[1] + radius * math.sin(turn)
+
+
+def cosine(edge: Any, other: Any) -> float:
+    """The cosine between an edge and the first one of a quad."""
+    a, b = np.array(edge), np.array(other.edge_u)
+    return float(a @ b / np.linalg.norm(a) / np.linalg.norm(b))
+
+
+@check
 def a_double_click_sets_the_pivot(hand: Hand) -> None:
     number, shape = ball(hand)
     hand.session.paused = True

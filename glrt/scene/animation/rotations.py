@@ -44,12 +44,16 @@ def matrix(quaternion: Sequence[float] | Array) -> Array:
 
 
 def angles(quaternion: Array) -> Array:
-    """Return degrees about the x, then the y, then the z axis, (3,), that turn as a quaternion.
+    """Return degrees about the x, then the y, then the z axis, (3,), that turn as a quaternion."""
+    return angles_of(matrix(quaternion))
+
+
+def angles_of(turn: Array) -> Array:
+    """Return degrees about the x, then the y, then the z axis, (3,), that turn as a matrix, (3, 3).
 
     They are what `rotate` of an object takes. With y at 90 degrees only the sum or the difference
     of the others counts; then the last is 0.
     """
-    turn = matrix(quaternion)
     level = math.hypot(turn[0, 0], turn[1, 0])
     y = math.atan2(-turn[2, 0], level)
     if level < _LEVEL:

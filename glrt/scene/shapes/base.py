@@ -70,6 +70,7 @@ class Object(Tagged):
     has_coordinates: ClassVar[bool] = False  # whether textures can lie on it
     anchor: ClassVar[str]  # the field with a point that moves with the shape
     points: ClassVar[tuple[str, ...]] = ()  # fields with further points, which move along
+    directions: ClassVar[tuple[str, ...]] = ()  # fields with vectors that turn with the shape
     extents: ClassVar[tuple[str, ...]]  # the fields, lengths or vectors, that grow with its size
 
     @property

@@ -31,6 +31,7 @@ class Disk(Sided):
     has_inside = False
     has_coordinates = True
     anchor = "center"
+    directions = ("normal",)
     extents = ("radius",)
 
     if TYPE_CHECKING:

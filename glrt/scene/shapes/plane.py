@@ -30,6 +30,7 @@ class Plane(Cornerless):
     has_inside = True
     has_coordinates = True
     anchor = "point"
+    directions = ("normal",)
     extents = ()
 
     if TYPE_CHECKING:

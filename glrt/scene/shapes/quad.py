@@ -30,7 +30,7 @@ class Quad(Sided):
     has_inside = False
     has_coordinates = True
     anchor = "corner"
-    extents = ("edge_u", "edge_v")
+    directions = extents = ("edge_u", "edge_v")
 
     if TYPE_CHECKING:
 

@@ -1,11 +1,18 @@
-"""Handles in the picture that move and scale the selected object."""
+"""Handles in the picture that move, turn and scale the selected object."""
 
 from imgui_bundle import imgui
 from imgui_bundle.imguizmo import im_guizmo
 
+from glrt.scene.shapes.kinds import Shape
 from glrt.view.app import App
 from glrt.view.edits.scene_edits import with_object
-from glrt.view.viewport.transform import moved_to, object_matrix, projection_matrix, view_matrix
+from glrt.view.viewport.transform import (
+    can_turn,
+    moved_to,
+    object_matrix,
+    projection_matrix,
+    view_matrix,
+)
 
 
 def draw_gizmo(app: App, left: float, top: float, width: float, height: float) -> None:
@@ -18,12 +25,10 @@ def draw_gizmo(app: App, left: float, top: float, width: float, height: float) -
     im_guizmo.set_drawlist()
     im_guizmo.set_rect(left, top, width, height)
     matrix = im_guizmo.Matrix16(object_matrix(shape))
-    scales = im_guizmo.OPERATION.scale if shape.extents else im_guizmo.OPERATION.translate
-    operation = scales if imgui.get_io().key_shift else im_guizmo.OPERATION.translate
     changed = im_guizmo.manipulate(
         im_guizmo.Matrix16(view_matrix(app.camera)),
         im_guizmo.Matrix16(projection_matrix(app.camera, settings.width / settings.height)),
-        operation,
+        _operation(app, shape),
         im_guizmo.MODE.world,
         matrix,
     )
@@ -32,6 +37,15 @@ def draw_gizmo(app: App, left: float, top: float, width: float, height: float) -
         app.edit_scene(
             f"object {index}", lambda scene: with_object(scene, index, moved_to(shape, values))
         )
+
+
+def _operation(app: App, shape: Shape) -> im_guizmo.OPERATION:
+    """Return what the handles do: a shape without size is not scaled, and a ball is not turned."""
+    if imgui.get_io().key_shift and (shape.extents or shape.points):
+        return im_guizmo.OPERATION.scale
+    if app.handles == "turn" and can_turn(shape):
+        return im_guizmo.OPERATION.rotate
+    return im_guizmo.OPERATION.translate
 
 
 def is_held(app: App) -> bool:

@@ -19,7 +19,7 @@ _MOUSE = {  # in the picture, and on labels in the panel
     "wheel": "move nearer or farther",
     "Ctrl, wheel": "zoom into the picture",
     "Ctrl, drag": "move the picture that is zoomed",
-    "click": "select an object; its handles move it, with Shift they scale it",
+    "click": "select an object; its handles move or turn it, with Shift they scale it",
     "Alt, click": "focus on that point",
     "double click": "make that point the pivot",
     "drag a label": "change its value; a double click there sets it back",

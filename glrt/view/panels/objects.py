@@ -12,18 +12,20 @@ from glrt.scene.shapes.kinds import Shape
 from glrt.settings import Cost
 from glrt.view import file_dialogs
 from glrt.view.app import App
-from glrt.view.controls import controls_of, replaced
+from glrt.view.controls import choice, controls_of, replaced
 from glrt.view.edits.new_objects import ADDED
 from glrt.view.edits.scene_edits import opened_shape, with_object, with_own_group
 from glrt.view.outliner.listing import OUTLINER
 from glrt.view.panels.materials import draw_material
 from glrt.view.panels.media import draw_medium
 from glrt.view.widgets.cost_badges import tag
-from glrt.view.widgets.fields import beside, button, edited_fields, named, tip
+from glrt.view.widgets.fields import beside, button, edited, edited_fields, named, tip
 from glrt.view.widgets.rows import WORDS, Row
 from glrt.view.widgets.steady_widget import ANCHOR
 
 _NONE = "nothing"
+_HANDLES = "what a drag of the handles in the picture does to the object; with Shift it scales it"
+HANDLES = choice("handles", _HANDLES, Cost.RESTART, ("move", "turn"))
 
 
 def draw_object(app: App) -> None:
@@ -124,10 +126,8 @@ def _buttons(app: App, shape: Shape) -> None:
         tip("A lock keeps edits away from the values below; the list of the part Scene locks")
         tag(Cost.FREE)
         return
-    beside("handles; Shift scales")
-    imgui.text_disabled("handles; Shift scales")
-    tip("Drag the handles of the selected object in the picture to move it")
-    tag(Cost.RESTART)
+    handles = edited(HANDLES, app.handles)
+    app.handles = app.handles if handles is None else handles
 
 
 def _name_of(app: App, index: int, shape: Shape) -> None:

@@ -21,6 +21,7 @@ _AXES: dict[Move, tuple[int, int, int]] = {  # right, up, forward
 COMMANDS: dict[Action, Callable[[App], object]] = {  # command of each action
     "home": lambda app: app.home(),
     "frame": lambda app: app.frame_selected(),
+    "handles": lambda app: app.toggle_handles(),
     "pause": lambda app: app.pause(),
     "fit": lambda app: app.zoom_to(None),
     "one_to_one": lambda app: app.zoom_to(1.0),

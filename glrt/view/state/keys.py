@@ -7,7 +7,7 @@ from typing import Literal, get_args
 Move = Literal["forward", "back", "left", "right", "up", "down"]
 Action = (
     Move
-    | Literal["home", "frame", "pause", "undo", "redo"]
+    | Literal["home", "frame", "handles", "pause", "undo", "redo"]
     | Literal["fit", "one_to_one", "inspect", "paths", "panel", "keys", "palette", "find_object"]
     | Literal["brighter", "darker", "picture_alone", "full_screen"]
     | Literal["duplicate", "delete", "open", "save_scene", "save_scene_as", "save", "quit"]
@@ -23,6 +23,7 @@ DEFAULTS: Bindings = {
     "down": ("q",),
     "home": ("home",),
     "frame": ("f",),
+    "handles": ("r",),
     "pause": ("space",),
     "fit": ("0",),
     "one_to_one": ("1",),
@@ -55,6 +56,7 @@ MEANING: dict[Action, str] = {
     "down": "sink",
     "home": "go to the first view",
     "frame": "frame the selection",
+    "handles": "let handles turn, or move again",
     "pause": "pause, continue",
     "fit": "show the whole picture",
     "one_to_one": "zoom to 1:1",

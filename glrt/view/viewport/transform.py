@@ -1,4 +1,4 @@
-"""Move and scale shapes, by pure functions, and the matrices that the handles need.
+"""Move, turn and scale shapes, by pure functions, and the matrices that the handles need.
 
 Matrices are 4 x 4 in OpenGL's order, column by column, as flat lists.
 """
@@ -8,13 +8,18 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from glrt.scene.animation.rotations import angles_of
 from glrt.scene.camera import Camera
+from glrt.scene.shapes.box import Box, rotation
 from glrt.scene.shapes.kinds import Shape
+from glrt.scene.shapes.mesh import Mesh
 from glrt.scene.values import Vector
 from glrt.view.controls import replaced
 from glrt.view.viewport.orbit import axes
 
 Matrix = list[float]
+_NO_TURN = 1e-6  # largest difference of a turn from none: rounding of the gizmo
+_ANGLE_DIGITS = 4  # of an angle in degrees after the point
 _CLEAR = 1.02  # heights of an object from its middle to that of its copy
 
 
@@ -41,8 +46,10 @@ def object_matrix(shape: Shape) -> Matrix:
 def moved_to(shape: Shape, matrix: NDArray[np.float32]) -> Shape:
     """Return the shape where a gizmo has put it, scaled by the mean scale of the three axes."""
     columns = np.asarray(matrix, np.float64).reshape(4, 4)
-    step = columns[3, :3] - np.array(shape.middle)
-    return scaled(shifted(shape, step), float(np.mean(np.linalg.norm(columns[:3, :3], axis=1))))
+    step, axes = columns[3, :3] - np.array(shape.middle), columns[:3, :3]
+    lengths = np.linalg.norm(axes, axis=1, keepdims=True)
+    moved, is_flat = shifted(shape, step), not lengths.all()  # scaled to nothing: without axes
+    return scaled(moved if is_flat else turned(moved, (axes / lengths).T), float(lengths.mean()))
 
 
 def shifted(shape: Shape, step: NDArray[np.float64]) -> Shape:
@@ -65,6 +72,28 @@ def clear_of(shape: Shape, pivot: Vector, least: float) -> Shape:
         return shifted(shape, least * along / float(np.linalg.norm(along)))
     step = max(_CLEAR * height, least)
     return shifted(shape, np.array([0.0, -step if shape.middle[1] > pivot[1] else step, 0.0]))
+
+
+def can_turn(shape: Shape) -> bool:
+    """Whether a turn about its middle changes the shape."""
+    return bool(shape.points or shape.directions or hasattr(shape, "rotate"))
+
+
+def turned(shape: Shape, turn: NDArray[np.float64]) -> Shape:
+    """Return the shape turned about its middle by a matrix for columns, (3, 3)."""
+    if not can_turn(shape) or np.allclose(turn, np.eye(3), atol=_NO_TURN, rtol=0):
+        return shape
+    vectors = {name: turn @ np.array(getattr(shape, name)) for name in shape.directions}
+    if isinstance(shape, Box | Mesh):
+        angles = angles_of(turn @ rotation(shape.rotate))
+        vectors["rotate"] = np.array([round(angle, _ANGLE_DIGITS) for angle in angles])
+    if not isinstance(shape, Box):  # its corners are those before it is turned about its middle
+        middle = np.array(shape.middle)
+        vectors |= {
+            name: middle + turn @ (np.array(getattr(shape, name)) - middle)
+            for name in _points(shape)
+        }
+    return replaced(shape, **{name: _short(value) for name, value in vectors.items()})
 
 
 def scaled(shape: Shape, factor: float) -> Shape:
