@@ -193,7 +193,7 @@ def an_object_is_chosen_in_a_list_of_thousands_and_a_frame_does_not_go_through_t
 def what_edits_of_an_object_cost_stands_next_to_them(hand: Hand) -> None:
     number, _ = ball(hand)
     costs: dict[str, Cost] = {}
-    handles: list[Cost] = []
+    marks: list[Cost] = []
     inner = fields.edited
 
     def seen(control: Control, value: Any, name: str = "") -> Any:
@@ -202,11 +202,13 @@ def what_edits_of_an_object_cost_stands_next_to_them(hand: Hand) -> None:
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(materials, "edited", seen)
-        patch.setattr(objects, "tag", handles.append)
+        patch.setattr(objects, "edited", seen)
+        patch.setattr(objects, "tag", marks.append)
         hand.window.app.selected = number
         hand.ctx.yield_(2)
-    assert costs == {"material": Cost.RECOMPILE, "type": Cost.RECOMPILE}
-    assert set(handles) == {Cost.RECOMPILE, Cost.RESTART}  # of new objects, and of the handles
+    expected = {"material": Cost.RECOMPILE, "type": Cost.RECOMPILE, "handles": Cost.RESTART}
+    assert costs == expected
+    assert set(marks) == {Cost.RECOMPILE}  # of new objects
     hand.ctx.set_ref("Controls")
     hand.ctx.combo_click("material/red")
     hand.settle()
