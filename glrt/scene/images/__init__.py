@@ -2,7 +2,8 @@
 
 Modules, each importing only what stands above it:
 
-- float_images: Radiance .hdr and OpenEXR files
+- float_images: OpenEXR files, and what all images are held to
+- radiance: Radiance .hdr files
 - image_files: image files of any format as linear values
 - texture_sizes: textures scaled down to the limits of a driver
 """

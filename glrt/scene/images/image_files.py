@@ -23,9 +23,9 @@ from glrt.scene.images.float_images import (
     check_size,
     damaged,
     decode_exr,
-    decode_hdr,
     reading,
 )
+from glrt.scene.images.radiance import decode_hdr
 
 Codes = NDArray[Any]  # uint8 or uint16, (H, W, C)
 
