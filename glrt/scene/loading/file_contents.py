@@ -6,15 +6,16 @@ import numpy as np
 
 from glrt.core.errors import SceneError
 from glrt.core.text import quoted
-from glrt.scene.files.assets import Asset, AssetReader, folder_of
+from glrt.scene.files.assets import Asset, AssetReader
 from glrt.scene.files.named_cameras import CameraFile
 from glrt.scene.files.named_files import container_of
 from glrt.scene.files.named_grids import GridFile, decode_grid
 from glrt.scene.files.named_images import ImageFile, Pixels, Texels, TextureImage
 from glrt.scene.files.named_meshes import MeshFile
 from glrt.scene.images.image_files import decode_image
+from glrt.scene.loading.companions import Beside
 from glrt.scene.model_files.gltf.cameras import FileCameras
-from glrt.scene.model_files.gltf.document import Document, LacksExtensionError
+from glrt.scene.model_files.gltf.document import LacksExtensionError
 from glrt.scene.model_files.gltf.images import image_content
 from glrt.scene.model_files.mesh_formats import GLTF, decode_mesh
 from glrt.scene.values import LARGEST
@@ -30,7 +31,7 @@ def with_content(named: NamedContent, reader: AssetReader, where: str) -> NamedC
     asset = reader.read(named.path, where)
     if isinstance(named, MeshFile):
         beside = Beside(asset, reader, where)
-        mesh = decode_mesh(asset.content, named.file, where, beside)
+        mesh = decode_mesh(asset.content, named.file, where, beside, beside.document)
         return named.read_as(asset.sha256, mesh, asset.origin).with_companions(beside.hashes)
     if isinstance(named, GridFile):
         try:
@@ -44,22 +45,6 @@ def with_content(named: NamedContent, reader: AssetReader, where: str) -> NamedC
     return named.read_as(asset.sha256, pixels, asset.origin)
 
 
-class Beside:
-    """Reads files by their paths from another one, and keeps their SHA-256 by path."""
-
-    def __init__(self, asset: Asset, reader: AssetReader, where: str) -> None:
-        """Read files by their paths from an asset."""
-        self._asset, self._reader, self._where = asset, reader, where
-        self.hashes: dict[str, str] = {}
-
-    def __call__(self, path: str) -> bytes:
-        """Return the content of the file at a path; raises `SceneError`."""
-        spelled = self._reader.spelled(path, folder_of(self._asset.path))
-        found = self._reader.read(spelled, f"{self._where}: {self._asset.path}")
-        self.hashes[found.path] = found.sha256
-        return found.content
-
-
 def _cameras(named: CameraFile, reader: AssetReader, where: str) -> CameraFile:
     if PurePosixPath(named.file).suffix.lower() not in GLTF:
         raise SceneError(
@@ -69,7 +54,7 @@ def _cameras(named: CameraFile, reader: AssetReader, where: str) -> CameraFile:
     asset = reader.read(named.path, where)
     beside = Beside(asset, reader, where)
     try:
-        cameras = FileCameras(Document(asset.content, beside))
+        cameras = FileCameras(beside.document())
     except LacksExtensionError as error:
         raise SceneError(f"{where}: {quoted(named.file)} {error}. Export it without.") from None
     except ValueError as error:
@@ -83,7 +68,7 @@ def _texture(named: TextureImage, asset: Asset, reader: AssetReader, where: str)
     content = asset.content
     if number is not None:
         try:
-            content = image_content(Document(content, beside), number)
+            content = image_content(beside.document(), number)
         except ValueError as error:
             raise SceneError(f"{where}: {named.file}: {error}. Export the file again.") from None
     place = f"{where}: {named.file}"

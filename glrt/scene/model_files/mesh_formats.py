@@ -10,7 +10,7 @@ from glrt.core.text import quoted
 from glrt.scene.meshes.checked_meshes import of_file
 from glrt.scene.meshes.triangle_meshes import TriangleMesh
 from glrt.scene.model_files.gltf.animations import Poses
-from glrt.scene.model_files.gltf.document import Document, LacksExtensionError
+from glrt.scene.model_files.gltf.document import Document, LacksExtensionError, NothingShownError
 from glrt.scene.model_files.gltf.draco import NotInstalledError
 from glrt.scene.model_files.gltf.primitives import mesh_of
 from glrt.scene.model_files.obj import read_obj
@@ -22,13 +22,19 @@ GLTF = (".glb", ".gltf")
 Fetch = Callable[[str], bytes]  # the content of a file by its path from this one
 
 
-def decode_mesh(content: bytes, path: str, where: str, fetch: Fetch | None = None) -> TriangleMesh:
+def decode_mesh(
+    content: bytes,
+    path: str,
+    where: str,
+    fetch: Fetch | None = None,
+    document: Callable[[], Document] | None = None,
+) -> TriangleMesh:
     """Return the mesh in the content of a file; the suffix of its path decides the format.
 
     Polygons are divided into triangles. Vertex colours are linear where a PLY file has them as
     floats, else sRGB. The names of materials of OBJ and glTF files are read; colours of faces are
-    not. `fetch` reads the buffers of glTF files. Raises `SceneError`, which begins with `where`, if
-    there is no mesh.
+    not. `fetch` reads the buffers of glTF files, and `document` gives one that is parsed already.
+    Raises `SceneError`, which begins with `where`, if there is no mesh.
     """
     suffix = PurePosixPath(path).suffix.lower()
     if suffix not in FORMATS:
@@ -40,7 +46,7 @@ def decode_mesh(content: bytes, path: str, where: str, fetch: Fetch | None = Non
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of arithmetic with NaN, which is found below
             if suffix in GLTF:
-                return _of_gltf(Document(content, fetch or _alone))
+                return _of_gltf(document() if document else Document(content, fetch or _alone))
             return of_file(*_READERS[suffix](content))
     except SceneError:
         raise  # of a file next to it
@@ -49,6 +55,11 @@ def decode_mesh(content: bytes, path: str, where: str, fetch: Fetch | None = Non
     except LacksExtensionError as error:
         advice = "Export it without, or convert it by a program that reads it"
         raise SceneError(f"{where}: {quoted(path)} {error}. {advice}.") from None
+    except NothingShownError:
+        raise SceneError(
+            f"{where}: {quoted(path)} shows no triangles: no node of its scene has a mesh of them. "
+            "Export it with its meshes."
+        ) from None
     except MemoryError:
         problem = "it says that it is larger than the memory"
     except (ValueError, LookupError, TypeError, ArithmeticError) as error:

@@ -4,7 +4,10 @@ from collections.abc import Sequence
 from functools import cached_property
 from typing import Any
 
+import numpy as np
+
 from glrt.scene.model_files.gltf.accessors import Floats, Ints, floats, indices
+from glrt.scene.model_files.gltf.coordinates import name_of, sets_of
 from glrt.scene.model_files.gltf.document import Document, number
 from glrt.scene.model_files.gltf.draco import unpacked
 
@@ -62,6 +65,15 @@ class Attributes:
                 f"{self._here} has {len(self.points):,} places and {len(found):,} of {name}"
             )
         return found
+
+    @property
+    def coordinates(self) -> Floats | None:
+        """Both sets of texture coordinates, (v, 4), 0 where one lacks; None without any."""
+        found = [self.rows(name_of(it), (2,)) for it in sets_of(self._document).kept]
+        if all(rows is None for rows in found):
+            return None
+        empty = np.zeros((len(self.points), 2))
+        return np.concatenate([empty if rows is None else rows for rows in found], axis=1)
 
     def corners(self) -> Ints | None:
         """Return the numbers of vertices, (n,); None where they follow each other."""

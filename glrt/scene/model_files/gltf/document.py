@@ -6,12 +6,13 @@ import json
 import struct
 from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property
-from typing import Any
+from typing import Any, TypeVar
 from urllib.parse import unquote_to_bytes
 
 from glrt.core.text import quoted
 from glrt.scene.files.path_text import text_of_bytes
 
+Made = TypeVar("Made")
 Fetch = Callable[[str], bytes]  # the content of a file by its path from this one
 
 KNOWN = {  # extensions that are read, or change nothing here
@@ -49,6 +50,13 @@ class LacksExtensionError(ValueError):
     """A file requires an extension that glrt does not read; the message names it."""
 
 
+class NothingShownError(ValueError):
+    """A file is whole, and shows no triangles."""
+
+    def __init__(self) -> None:
+        super().__init__("it shows no triangles")
+
+
 class Document:
     """A glTF file; mistakes in it raise ValueError, which says where."""
 
@@ -56,12 +64,20 @@ class Document:
         """Parse the content of a .glb or .gltf file; `fetch` brings other files."""
         text, self._binary = _chunks(content)
         self._fetch, self._buffers = fetch, dict[int, bytes]()
+        self._made = dict[str, Any]()
         self.json = _parsed(text)
         version = self.table(self.json.get("asset", {}), "asset").get("version")
         if not isinstance(version, str) or not version.startswith("2."):
             raise ValueError(f"asset.version must be 2.0, got {_shown(version)}")
         needed = self.json.get("extensionsRequired", [])
         _check_extensions(needed if isinstance(needed, list) else [])
+
+    def once(self, name: str, make: Callable[[], Made]) -> Made:
+        """Return what `make` returned when it was first asked for by a name."""
+        if name not in self._made:
+            self._made[name] = make()
+        found: Made = self._made[name]
+        return found
 
     @cached_property
     def unknown_extensions(self) -> list[str]:
