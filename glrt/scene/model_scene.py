@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from glrt.core.errors import SceneError
+from glrt.core.errors import SceneError, of_content
 from glrt.scene.files.assets import Asset, AssetFolder, AssetReader
 from glrt.scene.files.named_meshes import MeshFile
 from glrt.scene.files.path_text import text_of
@@ -102,7 +102,7 @@ def _add_stage(
         if camera:
             _add_camera(tables, *camera)
     except ValueError as error:
-        raise SceneError(f"{source}: {error}. Export the file again.") from None
+        raise SceneError(f"{source}: {of_content(error)}. Export the file again.") from None
     thing, suns = tables["objects"][0], lights["suns"]
     thing["file"] = thing["file"].with_libraries({}, left_out(camera, len(suns), document))
     tables["materials"] |= lights["materials"]

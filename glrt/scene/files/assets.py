@@ -13,7 +13,7 @@ import stat
 import unicodedata
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from errno import EINVAL, EISDIR
+from errno import EINVAL, EIO, EISDIR
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -244,7 +244,7 @@ def _read_at_most(real: str, most: int) -> bytes | None:
             return None
         content = file.read(status.st_size + 1)
     if len(content) != status.st_size:
-        raise OSError("it changed while it was read")
+        raise OSError(EIO, "it changed while it was read")
     return content
 
 

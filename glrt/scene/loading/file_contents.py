@@ -4,7 +4,7 @@ from pathlib import PurePosixPath
 
 import numpy as np
 
-from glrt.core.errors import SceneError
+from glrt.core.errors import SceneError, of_content
 from glrt.core.text import quoted
 from glrt.scene.files.assets import Asset, AssetReader
 from glrt.scene.files.named_cameras import CameraFile
@@ -37,7 +37,7 @@ def with_content(named: NamedContent, reader: AssetReader, where: str) -> NamedC
         try:
             return named.read_as(asset.sha256, decode_grid(asset.content), asset.origin)
         except ValueError as error:
-            raise SceneError(f"{where}: {named.file}: {error}.") from None
+            raise SceneError(f"{where}: {named.file}: {of_content(error)}.") from None
     if isinstance(named, TextureImage):
         return _texture(named, asset, reader, where)
     pixels = _colors(decode_image(asset.content, f"{where}: {named.file}"))
@@ -58,7 +58,9 @@ def _cameras(named: CameraFile, reader: AssetReader, where: str) -> CameraFile:
     except LacksExtensionError as error:
         raise SceneError(f"{where}: {quoted(named.file)} {error}. Export it without.") from None
     except ValueError as error:
-        raise SceneError(f"{where}: {quoted(named.file)}: {error}. Export it again.") from None
+        raise SceneError(
+            f"{where}: {quoted(named.file)}: {of_content(error)}. Export it again."
+        ) from None
     found = named.read_as(asset.sha256, cameras, asset.origin)
     return found.with_companions(beside.hashes)
 
@@ -70,7 +72,9 @@ def _texture(named: TextureImage, asset: Asset, reader: AssetReader, where: str)
         try:
             content = image_content(beside.document(), number)
         except ValueError as error:
-            raise SceneError(f"{where}: {named.file}: {error}. Export the file again.") from None
+            raise SceneError(
+                f"{where}: {named.file}: {of_content(error)}. Export the file again."
+            ) from None
     place = f"{where}: {named.file}"
     pixels = decode_image(content, place, color=named.is_color)
     _check_brightness(pixels, BRIGHTEST, place)

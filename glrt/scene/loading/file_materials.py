@@ -3,7 +3,7 @@
 Properties that scenes do not have are left out, and the file of the mesh lists them.
 """
 
-from glrt.core.errors import SceneError
+from glrt.core.errors import SceneError, of_content
 from glrt.core.text import counted, quoted
 from glrt.scene.files.assets import AssetReader, folder_of
 from glrt.scene.files.named_images import TextureImage
@@ -115,7 +115,7 @@ def of_gltf(shape: Mesh, reader: AssetReader, where: str) -> Found:
             own[name] = images.with_pixels(_of_look(look, images, here))
             unread += look.unread
     except ValueError as error:
-        raise SceneError(f"{where}: {shape.file.file}: {error}.") from None
+        raise SceneError(f"{where}: {shape.file.file}: {of_content(error)}.") from None
     unread += document.unknown_extensions
     if document.items("animations") and shape.time is None:
         unread.append("animations, which glrt film shows")

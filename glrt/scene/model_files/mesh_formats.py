@@ -5,7 +5,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import PurePosixPath
 
-from glrt.core.errors import SceneError
+from glrt.core.errors import ContentError, SceneError, of_content
 from glrt.core.text import quoted
 from glrt.scene.meshes.checked_meshes import of_file
 from glrt.scene.meshes.triangle_meshes import TriangleMesh
@@ -19,6 +19,7 @@ from glrt.scene.model_files.stl import read_stl
 
 FORMATS = (".ply", ".obj", ".stl", ".glb", ".gltf")
 GLTF = (".glb", ".gltf")
+_LONGEST = 200  # letters of a problem in a message
 Fetch = Callable[[str], bytes]  # the content of a file by its path from this one
 
 
@@ -63,7 +64,7 @@ def decode_mesh(
     except MemoryError:
         problem = "it says that it is larger than the memory"
     except (ValueError, LookupError, TypeError, ArithmeticError) as error:
-        problem = _reason(error)
+        problem = of_content(error)[:_LONGEST]
     raise SceneError(
         f"{where}: {quoted(path)} is damaged, or no {suffix[1:].upper()} file: {problem}. Export "
         "it again."
@@ -71,7 +72,7 @@ def decode_mesh(
 
 
 def _alone(path: str) -> bytes:
-    raise ValueError(f"it names {quoted(path)}, and only its own content is at hand")
+    raise ContentError(f"it names {quoted(path)}, and only its own content is at hand")
 
 
 def _of_gltf(document: Document) -> TriangleMesh:
@@ -80,8 +81,3 @@ def _of_gltf(document: Document) -> TriangleMesh:
 
 
 _READERS = {".obj": read_obj, ".ply": read_ply, ".stl": read_stl}
-
-
-def _reason(error: Exception) -> str:
-    text = str(error).split("\n")[0].strip().rstrip(".")
-    return text[:200] or type(error).__name__

@@ -44,7 +44,8 @@ def _sets(document: Document) -> Sets:
 def _given(document: Document) -> Iterator[int]:
     """Yield the sets of all primitives."""
     for mesh in document.items("meshes"):
-        for primitive in mesh.get("primitives", []) if isinstance(mesh, dict) else ():
+        primitives = mesh.get("primitives") if isinstance(mesh, dict) else None
+        for primitive in primitives if isinstance(primitives, list) else ():
             named = primitive.get("attributes") if isinstance(primitive, dict) else None
             for name in named if isinstance(named, dict) else ():
                 if name.startswith(_NAME) and name[len(_NAME) :].isdecimal():

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from glrt.core.errors import ContentError
 from glrt.core.text import quoted
 from glrt.scene.meshes.triangle_meshes import NO_MATERIAL
 from glrt.scene.model_files.gltf.document import Document, number, numbers
@@ -97,7 +98,7 @@ def _metallic_roughness(
     look.table["color"] = {**image, "factor": tuple(color)} if image else tuple(color)
     mode = given.get("alphaMode", "OPAQUE")
     if mode not in ("OPAQUE", "MASK", "BLEND"):
-        raise ValueError(f"{here}: alphaMode is none of OPAQUE, MASK and BLEND")
+        raise ContentError(f"{here}: alphaMode is none of OPAQUE, MASK and BLEND")
     if mode != "OPAQUE":
         look.table["alpha"] = {**image, "channel": "a", "factor": alpha} if image else alpha
     if mode == "MASK":

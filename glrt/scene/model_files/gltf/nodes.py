@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from glrt.core.errors import ContentError
 from glrt.scene.animation.rotations import matrix
 from glrt.scene.model_files.gltf.document import Document, numbers
 
@@ -58,7 +59,7 @@ def _in_order(document: Document) -> Iterator[tuple[int, dict[str, Any], int, in
         index, above, steps = waiting.pop()
         node = document.item("nodes", index, "a scene or a node")
         if index in seen:
-            raise ValueError(f"nodes[{index}] stands below itself, or in two places")
+            raise ContentError(f"nodes[{index}] stands below itself, or in two places")
         row = len(seen)
         seen.add(index)
         yield index, node, above, steps
@@ -74,7 +75,7 @@ def _roots(document: Document) -> list[Any]:
             child
             for node in nodes
             if isinstance(node, dict)
-            for child in node.get("children", [])
+            for child in document.list(node.get("children", []), "children")
             if type(child) is int
         }
         return [index for index in range(len(nodes)) if index not in below]
@@ -90,7 +91,7 @@ def changed(node: Mapping[str, Any], values: Mapping[str, Any]) -> dict[str, Any
 def checked_matrix(matrix: Matrix, here: str) -> Matrix:
     """Return the matrix; ValueError if a number of it is not finite."""
     if not np.isfinite(matrix).all():
-        raise ValueError(f"{here}: its transforms lead beyond all numbers")
+        raise ContentError(f"{here}: its transforms lead beyond all numbers")
     return matrix
 
 
@@ -104,7 +105,7 @@ def matrix_of(node: Mapping[str, Any], here: str) -> Matrix:
     if "rotation" in node:
         turn = numbers(node["rotation"], 4, f"{here}.rotation")
         if not any(turn):
-            raise ValueError(f"{here}.rotation must not be zero")
+            raise ContentError(f"{here}.rotation must not be zero")
         found[:3, :3] = matrix(turn)
     if "scale" in node:
         found[:3, :3] *= numbers(node["scale"], 3, f"{here}.scale")

@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from glrt.core.errors import ContentError
 from glrt.scene.meshes.checked_meshes import MeshArrays, of_file
 from glrt.scene.meshes.triangle_meshes import MOST_TRIANGLES, NO_MATERIAL, TriangleMesh
 from glrt.scene.model_files.gltf.accessors import Floats, Ints
@@ -167,7 +168,7 @@ def _shown(
     if not len(faces):
         return None
     if len(group.nodes) * len(faces) > room:
-        raise ValueError(f"it has more than {MOST_TRIANGLES:,} triangles")
+        raise ContentError(f"it has more than {MOST_TRIANGLES:,} triangles")
     matrices = (
         np.array([it.matrix for it in group.nodes])[:, None] if posed is None else posed[None]
     )
@@ -213,15 +214,15 @@ def _for_normals(linear: Floats) -> Floats:
 def _faces(own: Attributes, mode: Any, count: int, here: str) -> Ints:
     """Return the faces, (n, 3), of a list, a strip or a fan of triangles."""
     if mode not in (_TRIANGLES, _STRIP, _FAN):
-        raise ValueError(f"{here}.mode must be a whole number from 0 to 6, got {mode!r}"[:200])
+        raise ContentError(f"{here}.mode must be a whole number from 0 to 6, got {mode!r}"[:200])
     order = own.corners()
     if order is None:
         order = np.arange(count)
     elif order.max(initial=-1) >= count:
-        raise ValueError(f"{here}.indices names vertex {order.max()}, of {count:,} from 0")
+        raise ContentError(f"{here}.indices names vertex {order.max()}, of {count:,} from 0")
     if mode == _TRIANGLES:
         if len(order) % 3:
-            raise ValueError(f"{here} has {len(order):,} corners, which is no multiple of three")
+            raise ContentError(f"{here} has {len(order):,} corners, which is no multiple of three")
         return order.reshape(-1, 3)
     if len(order) < 3:
         return np.zeros((0, 3), np.int64)

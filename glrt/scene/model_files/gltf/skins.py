@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
+from glrt.core.errors import ContentError
 from glrt.scene.model_files.gltf.accessors import Floats, floats
 from glrt.scene.model_files.gltf.attributes import Attributes
 from glrt.scene.model_files.gltf.document import Document
@@ -32,13 +33,15 @@ def skin_matrices(
     if "inverseBindMatrices" in skin:
         rows = floats(document, skin["inverseBindMatrices"], (16,), f"{name}.inverseBindMatrices")
         if len(rows) < len(joints):
-            raise ValueError(f"{name} has {len(joints)} joints and {len(rows)} matrices")
+            raise ContentError(f"{name} has {len(joints)} joints and {len(rows)} matrices")
         bound = rows[: len(joints)].reshape(-1, 4, 4).transpose(0, 2, 1)
+    for place, joint in enumerate(joints):
+        document.item("nodes", joint, f"{name}.joints[{place}]")
     moved = np.array([poses.get(joint, np.eye(4)) for joint in joints]).reshape(-1, 4, 4) @ bound
     at, share = (np.concatenate(rows, axis=1) for rows in zip(*sets, strict=True))
     at = at.astype(int)
     if not len(joints) or at.min() < 0 or at.max() >= len(joints):
-        raise ValueError(f"{here} names joints that {name} has not")
+        raise ContentError(f"{here} names joints that {name} has not")
     total = share.sum(axis=1, keepdims=True)
     share = np.divide(share, total, out=np.zeros_like(share), where=total > 0)
     matrices: Floats = np.einsum("vk,vkij->vij", share, moved[at])
@@ -51,6 +54,6 @@ def _sets(own: Attributes, here: str) -> Iterator[tuple[Floats, Floats]]:
     while (joints := own.rows(f"JOINTS_{number}", (4,))) is not None:
         weights = own.rows(f"WEIGHTS_{number}", (4,))
         if weights is None:
-            raise ValueError(f"{here}.attributes has JOINTS_{number} and no WEIGHTS_{number}")
+            raise ContentError(f"{here}.attributes has JOINTS_{number} and no WEIGHTS_{number}")
         yield joints, weights
         number += 1
