@@ -50,8 +50,8 @@ def test_files_from_which_faults_are_made_are_sound(tmp_path: Path) -> None:
     builder = models.whole_gltf()
     for case in (*wholes, (".glb", builder.glb()), (".gltf", builder.gltf())):
         assert models.check_model(case, tmp_path) == "read", case[0]
-    ends = {name: models.check_image((name, it)) for name, it in models.whole_images().items()}
-    assert {name for name, end in ends.items() if end != "read"} == {"CMYK"}
+    for case in models.whole_images().items():
+        assert models.check_image(case) == "read", case[0]
 
 
 def without(builder: Builder, place: str, value: Any) -> bytes:

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from glrt.scene.images import radiance
 from glrt.scene.images.image_files import decode_image
 from tests.support.image_bytes import WHERE, flat_hdr, hdr, refusal, rle_hdr
 
@@ -157,3 +158,22 @@ def test_radiance_beyond_float32_is_refused() -> None:
         "has values that are negative or not finite, 1 of them: the first is inf"
     )
     assert "in row 0 and column 1 of G" in said
+
+
+@pytest.mark.parametrize("together", [1, 100, 1 << 20])
+def test_lines_of_both_kinds_may_follow_each_other(
+    together: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Some lines by runs and some by pixels, decoded one by one, by threes and all at once."""
+    monkeypatch.setattr(radiance, "_AT_ONCE", together)
+    rgbe = np.random.default_rng(6).integers(5, 8, (9, 8, 4)).astype(np.uint8)
+    rgbe[..., 3] = 130
+    lines = [rle_hdr(row[None]).split(b"+X 8\n")[1] for row in rgbe]
+    lines[2], lines[7] = rgbe[2].tobytes(), rgbe[7].tobytes()
+    found = decode_image(hdr("-Y 9 +X 8", b"".join(lines)), WHERE)
+    assert (found == decode_image(flat_hdr(rgbe), WHERE)).all()
+
+
+def test_a_file_too_short_for_its_lines_takes_no_memory() -> None:
+    said = refusal(hdr("-Y 16384 +X 16384", bytes(40)))
+    assert said.startswith("is damaged: it has 40 bytes for 16,384 lines")

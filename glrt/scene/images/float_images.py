@@ -62,6 +62,8 @@ def checked(pixels: Pixels, channels: str, color: bool) -> Pixels:
 
     Colours that are negative by next to nothing, as filters leave them, become 0.
     """
+    if color and pixels.min() >= 0 and pixels.max() < np.inf:  # NaN is in both
+        return pixels
     wrong = ~np.isfinite(pixels)
     if color and not wrong.any():
         negative = np.minimum(pixels, 0)

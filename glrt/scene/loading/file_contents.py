@@ -10,9 +10,9 @@ from glrt.scene.files.assets import Asset, AssetReader
 from glrt.scene.files.named_cameras import CameraFile
 from glrt.scene.files.named_files import container_of
 from glrt.scene.files.named_grids import GridFile, decode_grid
-from glrt.scene.files.named_images import ImageFile, Pixels, Texels, TextureImage
+from glrt.scene.files.named_images import ImageFile, Pixels, TextureImage
 from glrt.scene.files.named_meshes import MeshFile
-from glrt.scene.images.image_files import decode_image
+from glrt.scene.images.image_files import check_brightness, decode_image, decode_texels
 from glrt.scene.loading.companions import Beside
 from glrt.scene.model_files.gltf.cameras import FileCameras
 from glrt.scene.model_files.gltf.document import LacksExtensionError
@@ -20,7 +20,6 @@ from glrt.scene.model_files.gltf.images import image_content
 from glrt.scene.model_files.mesh_formats import GLTF, decode_mesh
 from glrt.scene.values import LARGEST
 
-BRIGHTEST = 65_504.0  # of a texture: the largest half float
 NamedContent = ImageFile | TextureImage | MeshFile | CameraFile | GridFile
 
 
@@ -41,7 +40,7 @@ def with_content(named: NamedContent, reader: AssetReader, where: str) -> NamedC
     if isinstance(named, TextureImage):
         return _texture(named, asset, reader, where)
     pixels = _colors(decode_image(asset.content, f"{where}: {named.file}"))
-    _check_brightness(pixels, LARGEST, f"{where}: {named.file}")
+    check_brightness(pixels, LARGEST, f"{where}: {named.file}")
     return named.read_as(asset.sha256, pixels, asset.origin)
 
 
@@ -76,15 +75,9 @@ def _texture(named: TextureImage, asset: Asset, reader: AssetReader, where: str)
                 f"{where}: {named.file}: {of_content(error)}. Export the file again."
             ) from None
     place = f"{where}: {named.file}"
-    pixels = decode_image(content, place, color=named.is_color)
-    _check_brightness(pixels, BRIGHTEST, place)
-    found = named.read_as(asset.sha256, _texels(pixels), asset.origin)
+    texels = decode_texels(content, place, color=named.is_color)
+    found = named.read_as(asset.sha256, texels, asset.origin)
     return found.with_companions(beside.hashes)
-
-
-def _check_brightness(pixels: Pixels, most: float, where: str) -> None:
-    if pixels.max() > most:
-        raise SceneError(f"{where}: this image is brighter than {most:,g}; scale it down.")
 
 
 def _colors(pixels: Pixels) -> Pixels:
@@ -92,13 +85,3 @@ def _colors(pixels: Pixels) -> Pixels:
     channels = pixels.shape[2]
     planes = pixels[..., :1].repeat(3, axis=2) if channels < 3 else pixels[..., :3]
     return np.ascontiguousarray(planes, np.float32)
-
-
-def _texels(pixels: Pixels) -> Texels:
-    """Return texels, (H, W, 4): colours, and alpha or 1."""
-    found = np.ones((*pixels.shape[:2], 4), np.float16)
-    channels = pixels.shape[2]
-    found[..., :3] = pixels[..., :1] if channels < 3 else pixels[..., :3]
-    if channels in (2, 4):
-        found[..., 3] = pixels[..., -1]
-    return found

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from glrt.core.errors import ContentError
 from glrt.core.text import counted, quoted
-from glrt.scene.images.image_files import decode_srgb
+from glrt.scene.images.codes import decode_srgb
 from glrt.scene.meshes.checked_meshes import MeshArrays
 from glrt.scene.meshes.triangle_meshes import NO_MATERIAL
 from glrt.scene.model_files.polygons import triangulated

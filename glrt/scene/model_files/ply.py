@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from glrt.core.errors import ContentError
 from glrt.core.text import counted
-from glrt.scene.images.image_files import decode_srgb
+from glrt.scene.images.codes import decode_srgb
 from glrt.scene.meshes.checked_meshes import MeshArrays
 from glrt.scene.model_files.ply_tables import Columns, Ragged, tables_of
 from glrt.scene.model_files.polygons import triangulated
