@@ -36,7 +36,7 @@ def main(arguments: list[str] | None = None) -> int:
 def _run(arguments: list[str] | None) -> int:
     from glrt.cli import commands
     from glrt.core.errors import GlrtError, RenderError
-    from glrt.core.files import reason
+    from glrt.core.files import UNTOLD, reason
     from glrt.process import command, signals
     from glrt.process.command import fail
 
@@ -56,7 +56,7 @@ def _run(arguments: list[str] | None) -> int:
         return fail(f"out of memory: {reason(error)}. {SMALLER}", RenderError.exit_code)
     except OSError as error:
         command.settle(sys.stdout)
-        return fail(f"{_what_failed(error)}: {reason(error)}", RenderError.exit_code)
+        return fail(f"{_what_failed(error)}: {reason(error, UNTOLD)}", RenderError.exit_code)
 
 
 def _what_failed(error: OSError) -> str:

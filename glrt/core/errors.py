@@ -34,3 +34,18 @@ class ContextError(GlrtError):
 
 class RenderError(GlrtError):
     """The render failed: driver, memory or disk."""
+
+
+class ContentError(ValueError):
+    """The mistake in the content of a file, in words for its user: a part of a `SceneError`.
+
+    Readers raise it. Other errors that a damaged file causes have words for programmers, in Python
+    or a library: `of_content` says that the content makes no sense instead.
+    """
+
+
+def of_content(error: Exception) -> str:
+    """Return the mistake in a file that has caused an error, without a full stop."""
+    if isinstance(error, ContentError):
+        return str(error).rstrip(".")
+    return "its parts contradict each other, or it is cut off"

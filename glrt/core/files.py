@@ -1,6 +1,7 @@
 """Write files atomically, by a rename; refuse to read pipes, devices and files too long."""
 
 import os
+import re
 import secrets
 import shutil
 import stat
@@ -9,8 +10,7 @@ from contextlib import suppress
 from errno import EFBIG, EINVAL, EISDIR, ELOOP
 from pathlib import Path
 
-from glrt.core.errors import RenderError, UsageError
-from glrt.core.text import one_line
+from glrt.core.errors import ContentError, RenderError, UsageError
 
 # Libraries raise these, not only the system: OpenEXR raises RuntimeError when a disk is full, and
 # Python raises ValueError for names that no system accepts.
@@ -37,8 +37,8 @@ def write_whole(path: Path, write: Callable[[Path], None]) -> None:
                 temporary.unlink(missing_ok=True)
     except _WRITE_FAILURES as error:
         raise RenderError(
-            f"Cannot write {path}: {reason(error)}. Nothing was written there; free some space, "
-            "or choose another place."
+            f"Cannot write {path}: {reason(error, UNTOLD)}. Nothing was written there; free some "
+            "space, or choose another place."
         ) from error
 
 
@@ -53,7 +53,7 @@ def make_folder(folder: Path, *names: str) -> None:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise UsageError(
-            f"Cannot make the folder {folder}: {reason(error)}. Choose another with -o."
+            f"Cannot make the folder {folder}: {reason(error, UNTOLD)}. Choose another with -o."
         ) from None
     for name in names:
         check_writable(folder / name)
@@ -83,20 +83,36 @@ def check_writable(path: Path) -> None:
     try:
         problem = _obstacle(path)
     except (OSError, RuntimeError, ValueError) as error:
-        problem = reason(error)
+        problem = reason(error, UNTOLD)
     if problem:
         raise UsageError(f"Cannot write {path}: {problem}. Choose another place or name.")
 
 
-def reason(error: BaseException) -> str:
-    """Return the message of an error, without its number and its full stop."""
+def reason(error: BaseException, otherwise: str = "its content cannot be decoded") -> str:
+    """Return why something failed, in the words of the system or of glrt, without a full stop.
+
+    Messages of Python and of libraries are for programmers: in place of them stands `otherwise`.
+    """
     if isinstance(error, OSError) and error.strerror:
         return error.strerror
     if isinstance(error, UnicodeDecodeError):
         return "a text in it is damaged, or not in UTF-8"
     if isinstance(error, UnicodeEncodeError):
         return "a text for it, as the name of a file, has signs that UTF-8 cannot hold"
-    return one_line(str(error) or type(error).__name__).rstrip(".")
+    if isinstance(error, ContentError):
+        return str(error).rstrip(".")
+    told = str(error)
+    if isinstance(error, MemoryError):
+        wanted = _SIZE.search(told)  # as numpy gives it
+        return f"there is no room for {wanted[0]}" if wanted else "there is no more"
+    if isinstance(error, EOFError) or _CUT_OFF.search(told):
+        return "it is cut off"
+    return otherwise
+
+
+UNTOLD = "the system gives no reason"
+_SIZE = re.compile(r"[\d.]+ [KMGTP]?i?B\b")
+_CUT_OFF = re.compile("truncated|end of file|not enough|EOF|fewer bytes|too short|premature", re.I)
 
 
 def _write_text(file: Path, text: str) -> None:

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import IO, Any
 
 from glrt.core.errors import RenderError
-from glrt.core.files import reason
+from glrt.core.files import UNTOLD, reason
 from glrt.core.text import escaped
 from glrt.process.early import leave_at_once
 from glrt.process.signals import handled
@@ -93,7 +93,7 @@ def print_figures(figures: dict[str, Any], outputs: Sequence[str]) -> None:
         settle(sys.stdout)
         raise RenderError(
             f"The picture is saved in {file_names(outputs)}, but its figures could not be written "
-            f"to standard output: {reason(error)}. Send them to another place."
+            f"to standard output: {reason(error, UNTOLD)}. Send them to another place."
         ) from None
 
 

@@ -7,17 +7,17 @@ from typing import Any
 
 import numpy as np
 
-from glrt.core.errors import SceneError
+from glrt.core.errors import SceneError, of_content
 from glrt.scene.files.assets import Asset, AssetFolder, AssetReader
 from glrt.scene.files.named_meshes import MeshFile
 from glrt.scene.files.path_text import text_of
+from glrt.scene.loading.companions import Beside
 from glrt.scene.loading.file_camera import TIME, picture_size, track_of_time
-from glrt.scene.loading.file_contents import Beside, with_content
+from glrt.scene.loading.file_contents import with_content
 from glrt.scene.loading.scene_files import with_files
 from glrt.scene.materials.lambertian import Lambertian
 from glrt.scene.meshes.triangle_meshes import Poses, TriangleMesh
 from glrt.scene.model_files.gltf.cameras import FileCamera, camera_of, left_out
-from glrt.scene.model_files.gltf.document import Document
 from glrt.scene.model_files.gltf.lights import lights_of
 from glrt.scene.model_files.mesh_formats import FORMATS, GLTF
 from glrt.scene.scene import Scene
@@ -64,7 +64,7 @@ def model_scene(path: Path, folder: AssetFolder, source: str, variant: str | Non
     elif not file.triangles.parts:
         tables["materials"]["clay"] = Lambertian(color=CLAY)
         tables["objects"][0]["material"] = "clay"
-    scene = with_files(validated(Scene, tables, source), folder, source, Lambertian(color=CLAY))
+    scene = with_files(validated(Scene, tables, source), reader, source, Lambertian(color=CLAY))
     return scene if has_lights or lights_itself(scene) else with_studio(scene, source)
 
 
@@ -96,13 +96,13 @@ def _add_stage(
 ) -> bool:
     """Add cameras and lights of a glTF file; return whether it has lights."""
     try:
-        document = Document(asset.content, Beside(asset, reader, source))
+        document = Beside(asset, reader, source).document()
         lights = lights_of(document, _ball(mesh)[1])
         camera = camera_of(document)
         if camera:
             _add_camera(tables, *camera)
     except ValueError as error:
-        raise SceneError(f"{source}: {error}. Export the file again.") from None
+        raise SceneError(f"{source}: {of_content(error)}. Export the file again.") from None
     thing, suns = tables["objects"][0], lights["suns"]
     thing["file"] = thing["file"].with_libraries({}, left_out(camera, len(suns), document))
     tables["materials"] |= lights["materials"]

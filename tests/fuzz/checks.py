@@ -9,6 +9,7 @@ from glrt.gpu.context import Context
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 from glrt.scene.scenefile.toml import parse_scene, read_scene, scene_to_dict
+from tests.fuzz.foreign import is_foreign
 from tests.fuzz.grammar import Table
 
 SOURCE = "chance.toml"
@@ -37,10 +38,11 @@ def read(content: bytes, folder: Path) -> Scene | None:
 
 
 def check_refusal(message: str, source: str) -> None:
-    """One short paragraph that names the file."""
+    """One short paragraph that names the file, without words of a library."""
     assert source in message
     assert message.isprintable(), "one paragraph, fit for a terminal"
     assert len(message) < 4000, "a paragraph, not a dump"
+    assert not is_foreign(message), "in the words of glrt"
 
 
 def check_render(scene: Scene, context: Context) -> None:

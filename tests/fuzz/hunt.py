@@ -9,7 +9,7 @@ from hypothesis import HealthCheck, Phase, given, seed, settings
 from hypothesis import strategies as st
 
 from glrt.gpu.context import Context
-from tests.fuzz import checks, pictures
+from tests.fuzz import checks, models, pictures
 from tests.fuzz.grammar import scenes
 from tests.fuzz.mutation import broken_files, broken_scenes
 
@@ -47,6 +47,11 @@ def kinds(folder: Path, context: Context) -> dict[str, tuple[st.SearchStrategy[A
             pictures.broken(png.read_bytes()),
             lambda b: told(pictures.check_picture(b, png)),
         ),
+        "words of models": (models.texts(), lambda it: models.check_model(it, folder)),
+        "values of glTF": (models.values_of_gltf(), lambda it: models.check_model(it, folder)),
+        "bytes of models": (models.bytes_of_models(), lambda it: models.check_model(it, folder)),
+        "broken images": (models.images(), models.check_image),
+        "broken grids": (models.grids(), models.check_grid),
     }
 
 

@@ -116,7 +116,7 @@ def test_no_memory_for_a_picture_exits_4_with_advice(
 ) -> None:
     assert main(["render", "sky", *SMALL, "-o", str(tmp_path / "a.exr")]) == 4
     said = one_paragraph(capsys.readouterr().err)
-    assert "out of memory: Unable to allocate 4.00 GiB" in said
+    assert "out of memory: there is no room for 4.00 GiB" in said
     assert "--crop" in said
 
 

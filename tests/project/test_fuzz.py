@@ -24,6 +24,11 @@ COUNTS = {
     "broken EXR": 80,
     "broken recipes": 80,
     "broken PNG": 40,
+    "words of models": 80,
+    "values of glTF": 80,
+    "bytes of models": 60,
+    "broken images": 80,
+    "broken grids": 40,
 }
 
 

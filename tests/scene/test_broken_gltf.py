@@ -112,7 +112,6 @@ ENDS: dict[str, tuple[bytes, str]] = {
     ),
     "a data URI without data": (textured_square().gltf("data:x"), "without ';base64,'"),
     "a web address": (textured_square().gltf("https://example.org/a.bin"), "web address"),
-    "no triangles": (Builder().glb(), "it shows no triangles"),
 }
 
 

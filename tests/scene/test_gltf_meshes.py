@@ -7,6 +7,7 @@ import pytest
 import trimesh
 from numpy.testing import assert_allclose
 
+from glrt.core.errors import SceneError
 from glrt.scene.meshes.triangle_meshes import TriangleMesh
 from glrt.scene.model_files.mesh_formats import decode_mesh
 from tests.support.gltf_files import POINTS, SQUARE, UV, Builder, square
@@ -195,3 +196,11 @@ def test_points_and_lines_are_left_out() -> None:
     for mode in (0, 1, 2, 3):
         builder.shown({**square(builder), "mode": mode})
     assert len(decoded(builder).faces) == 2
+
+
+def test_a_file_without_triangles_is_whole_and_shows_none() -> None:
+    builder = Builder()
+    builder.shown({**square(builder), "mode": 1})
+    with pytest.raises(SceneError, match=r"^here: 'thing.glb' shows no triangles: ") as caught:
+        decoded(builder)
+    assert "damaged" not in str(caught.value)

@@ -102,7 +102,9 @@ def test_textures_have_their_channels_and_factors(tmp_path: Path) -> None:
         "normalTexture": {**image, "scale": 2},
         "alphaMode": "BLEND",
     }
-    builder.shown(square(builder, material=builder.add("materials", {"name": "m", **material})))
+    shape = square(builder, material=builder.add("materials", {"name": "m", **material}))
+    shape["attributes"]["TEXCOORD_1"] = shape["attributes"]["TEXCOORD_0"]
+    builder.shown(shape)
     scene = load(saved(tmp_path, builder))
     found = principled(scene)
     assert found.color == (0.5, 0.5, 0.5)

@@ -140,3 +140,11 @@ def test_damaged_files_are_read() -> None:
         found = decode_mtl(bytes(data), "here")
         left_out += any(material_of(entry)[1] for entry in found.values())
     assert left_out == 100
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "latin-1", "utf-16"])
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
+def test_names_are_read_in_the_encodings_of_obj_files(encoding: str, end: str) -> None:
+    text = f"newmtl Grün{end}Kd 0 1 0{end}"
+    entry = decode_mtl(text.encode(encoding), "here")["Grün"]
+    assert entry.colors == {"Kd": (0, 1, 0)}

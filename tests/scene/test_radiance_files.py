@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from glrt.scene.images import radiance
 from glrt.scene.images.image_files import decode_image
 from tests.support.image_bytes import WHERE, flat_hdr, hdr, refusal, rle_hdr
 
@@ -105,9 +106,16 @@ def test_exposures_are_undone_but_those_of_the_files_it_was_made_from() -> None:
     rgbe = np.array([[[128, 128, 128, 129]]], np.uint8)
     lines = ("EXPOSURE=4", "EXPOSURE= 0.5", "COLORCORR=1 2 4", "\tEXPOSURE=64")
     assert decode_image(flat_hdr(rgbe, *lines), WHERE)[0, 0].tolist() == [0.5, 0.25, 0.125]
-    for value in ("0", "", "nan", "inf", "bright", "1 2", "-1", "1e31", "1e-32", "1e308", "1 1 0"):
-        said = refusal(flat_hdr(rgbe, "EXPOSURE=9", f"COLORCORR={value}"))
-        assert said.startswith("is damaged: an exposure in its header is ")
+
+
+@pytest.mark.parametrize(
+    "value", ["0", "", "nan", "inf", "bright", "1 2", "-1", "1e31", "1e-32", "1e308", "1 1 0"]
+)
+def test_an_exposure_that_no_pixel_can_have_says_nothing(value: str) -> None:
+    """FreeImage has written EXPOSURE=0 (OpenCV's issue 4885)."""
+    rgbe = np.array([[[128, 128, 128, 129]]], np.uint8)
+    lines = ("EXPOSURE=4", f"EXPOSURE={value}", f"COLORCORR={value}")
+    assert decode_image(flat_hdr(rgbe, *lines), WHERE)[0, 0].tolist() == [0.25] * 3
 
 
 def test_a_header_without_its_format_is_rgbe_and_xyze_is_refused() -> None:
@@ -150,3 +158,22 @@ def test_radiance_beyond_float32_is_refused() -> None:
         "has values that are negative or not finite, 1 of them: the first is inf"
     )
     assert "in row 0 and column 1 of G" in said
+
+
+@pytest.mark.parametrize("together", [1, 100, 1 << 20])
+def test_lines_of_both_kinds_may_follow_each_other(
+    together: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Some lines by runs and some by pixels, decoded one by one, by threes and all at once."""
+    monkeypatch.setattr(radiance, "_AT_ONCE", together)
+    rgbe = np.random.default_rng(6).integers(5, 8, (9, 8, 4)).astype(np.uint8)
+    rgbe[..., 3] = 130
+    lines = [rle_hdr(row[None]).split(b"+X 8\n")[1] for row in rgbe]
+    lines[2], lines[7] = rgbe[2].tobytes(), rgbe[7].tobytes()
+    found = decode_image(hdr("-Y 9 +X 8", b"".join(lines)), WHERE)
+    assert (found == decode_image(flat_hdr(rgbe), WHERE)).all()
+
+
+def test_a_file_too_short_for_its_lines_takes_no_memory() -> None:
+    said = refusal(hdr("-Y 16384 +X 16384", bytes(40)))
+    assert said.startswith("is damaged: it has 40 bytes for 16,384 lines")

@@ -13,9 +13,10 @@ import stat
 import unicodedata
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from errno import EINVAL, EISDIR
+from errno import EINVAL, EIO, EISDIR
 from itertools import islice
 from pathlib import Path
+from typing import Any
 from urllib.parse import unquote
 
 from glrt.core.errors import SceneError
@@ -83,9 +84,10 @@ class AssetReader:
     """
 
     def __init__(self, folder: AssetFolder) -> None:
-        self._folder = folder
+        self.folder = folder
         self._by_path: dict[str, Asset] = {}
         self._by_file: dict[str, Asset] = {}  # by path, links resolved
+        self.made: dict[str, Any] = {}  # of files, by path, to be used again
 
     @property
     def assets(self) -> tuple[Asset, ...]:
@@ -123,7 +125,7 @@ class AssetReader:
         looked for, unless the user allows it.
         """
         joined = posixpath.join(folder, path)
-        if self._folder.allow_outside and (self._folder.base / name_of(joined)).is_file():
+        if self.folder.allow_outside and (self.folder.base / name_of(joined)).is_file():
             return joined
         given = with_slashes(path)
         if given.startswith("/") or _DRIVE.match(given):
@@ -133,26 +135,26 @@ class AssetReader:
             return joined
         found = ""
         for part in parts:
-            found = posixpath.join(found, _entry_like(part, self._folder.base / name_of(found)))
+            found = posixpath.join(found, _entry_like(part, self.folder.base / name_of(found)))
         return found
 
     def _read(self, name: str) -> Asset:
         if name not in self._by_path:
-            _check_listed(name, self._folder)
-            self._by_path[name] = self._fetched(name, _located(name, self._folder))
+            _check_listed(name, self.folder)
+            self._by_path[name] = self._fetched(name, _located(name, self.folder))
         return self._by_path[name]
 
     def _fetched(self, name: str, real: str) -> Asset:
         known = self._by_file.get(real)
         content = known.content if known else self._content(name, real)
         digest = known.sha256 if known else hashlib.sha256(content).hexdigest()
-        _check_content(name, digest, self._folder)
+        _check_content(name, digest, self.folder)
         asset = Asset(name, content, digest, Path(real))
         self._by_file.setdefault(real, asset)
         return asset
 
     def _content(self, name: str, real: str) -> bytes:
-        folder = self._folder
+        folder = self.folder
         room = folder.largest_in_all - sum(asset.size for asset in self._by_file.values())
         try:
             content = _read_at_most(real, min(folder.largest, room))
@@ -242,7 +244,7 @@ def _read_at_most(real: str, most: int) -> bytes | None:
             return None
         content = file.read(status.st_size + 1)
     if len(content) != status.st_size:
-        raise OSError("it changed while it was read")
+        raise OSError(EIO, "it changed while it was read")
     return content
 
 

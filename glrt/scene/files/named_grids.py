@@ -10,6 +10,7 @@ from numpy.lib import format as npy
 from numpy.typing import NDArray
 from pydantic import BeforeValidator, PlainSerializer, PrivateAttr, WithJsonSchema
 
+from glrt.core.errors import ContentError
 from glrt.scene.files.named_files import PATH_SCHEMA, NamedFile, by_path, to_path
 
 BRICK = 8  # voxels along an edge of a brick: shaders_glsl/media/grid.glsl
@@ -101,15 +102,15 @@ def decode_grid(content: bytes) -> NDArray[Any]:
         version = npy.read_magic(file)
         read = npy.read_array_header_1_0 if version == (1, 0) else npy.read_array_header_2_0
         shape, is_fortran, dtype = read(file)
-    except (ValueError, SyntaxError, KeyError, TypeError, UnicodeDecodeError, EOFError):
-        raise ValueError(
+    except Exception:  # its header is Python's text, whose readers have many kinds of errors
+        raise ContentError(
             "this is no .npy file of a grid. Write one by numpy.save, of an array (z, y, x)"
         ) from None
     _check_form(shape, dtype)
     values = content[file.tell() :]
     size = int(np.prod(shape, dtype=np.int64)) * dtype.itemsize
     if len(values) != size:
-        raise ValueError(
+        raise ContentError(
             f"the file has {len(values):,} bytes of voxels, and its header promises {size:,}. "
             "Write it again"
         )
@@ -123,20 +124,20 @@ def checked_grid(values: NDArray[Any]) -> NDArray[Any]:
     _check_form(values.shape, values.dtype)
     if not np.isfinite(values).all():
         place = _first(~np.isfinite(values))
-        raise ValueError(f"voxel {place} is not finite. Give each a density of at least 0")
+        raise ContentError(f"voxel {place} is not finite. Give each a density of at least 0")
     if (values < 0).any():
-        raise ValueError(f"voxel {_first(values < 0)} is below 0. Give each a density from 0 on")
+        raise ContentError(f"voxel {_first(values < 0)} is below 0. Give each a density from 0 on")
     return values
 
 
 def _check_form(shape: tuple[int, ...], dtype: np.dtype[Any]) -> None:
     if dtype.name not in _DTYPES:
-        raise ValueError(
+        raise ContentError(
             f"the voxels are of type {dtype.name}, not float16 or float32. Convert them by "
             "numpy's astype"
         )
     if len(shape) != _DIMENSIONS or min(shape) < 1:
-        raise ValueError(
+        raise ContentError(
             f"the array has the shape {tuple(shape)}, not three sizes (z, y, x) of at least 1. "
             "Reshape it"
         )
@@ -144,7 +145,7 @@ def _check_form(shape: tuple[int, ...], dtype: np.dtype[Any]) -> None:
     for size in shape:
         count *= int(size)
     if count > MOST_VOXELS:
-        raise ValueError(
+        raise ContentError(
             f"the grid has {count:,} voxels, and {MOST_VOXELS:,} are the most. Scale it down"
         )
 

@@ -2,7 +2,10 @@
 
 Modules, each importing only what stands above it:
 
-- float_images: Radiance .hdr and OpenEXR files
+- codes: codes of images as linear values
+- float_images: OpenEXR files, and what all images are held to
+- radiance: Radiance .hdr files
+- metadata: PNG and JPEG files without their metadata
 - image_files: image files of any format as linear values
 - texture_sizes: textures scaled down to the limits of a driver
 """

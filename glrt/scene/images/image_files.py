@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glrt.core.errors import SceneError
+from glrt.scene.images.codes import Codes, Texels, halves, linear
 from glrt.scene.images.float_images import (
     MOST_PIXELS,
     Pixels,
@@ -23,12 +24,12 @@ from glrt.scene.images.float_images import (
     check_size,
     damaged,
     decode_exr,
-    decode_hdr,
     reading,
 )
+from glrt.scene.images.metadata import bare_jpeg, bare_png, frames_of_png
+from glrt.scene.images.radiance import decode_hdr
 
-Codes = NDArray[Any]  # uint8 or uint16, (H, W, C)
-
+BRIGHTEST = 65_504.0  # of a texture: the largest half float
 _MOST_SCANS = 16  # of a JPEG file with MOST_PIXELS: a scan of a few bytes goes over all pixels
 
 
@@ -38,8 +39,10 @@ def decode_image(content: bytes, where: str, color: bool = True) -> Pixels:
     C is 1 for grey, 2 for grey and alpha, 3 for R, G, B and 4 for R, G, B, alpha, as stored. A
     palette becomes the colours that it stands for, and a transparent colour of a PNG becomes alpha.
     8 and 16 bits are kept whole. Alpha is linear. Colours are those of the file, not multiplied by
-    alpha (PNG, WebP) or multiplied (OpenEXR). The EXIF orientation is ignored: texture coordinates
-    mean the pixels as stored. Radiance values are divided by the exposures in their header.
+    alpha (PNG, WebP) or multiplied (OpenEXR). The inks of a CMYK image filter white: red is
+    (1 - C) (1 - K). Metadata are not read: the EXIF orientation is ignored, since texture
+    coordinates mean the pixels as stored. Radiance values are divided by the exposures in their
+    header.
 
     `color` says that codes are colours in sRGB, which become linear in Rec. 709 primaries; else
     they are data, code / 255 or code / 65535. Float values are taken as they are; those of colours
@@ -47,49 +50,80 @@ def decode_image(content: bytes, where: str, color: bool = True) -> Pixels:
 
     The content decides the format; no name plays a part. `where` begins messages: the scene file,
     the key and the file. Raises `SceneError` for another format, a damaged file, more than 16384 x
-    16384 pixels, values that are not finite or negative colours, a CMYK image, an animation,
-    Radiance XYZE, or an OpenEXR file that is not one flat image of R, G, B, or Y.
+    16384 pixels, values that are not finite or negative colours, an animation, Radiance XYZE, or
+    an OpenEXR file that is not one flat image of R, G, B, or Y.
     """
+    stored = _stored(content, where, color)
+    return stored if stored.dtype == np.float32 else linear(stored, color)
+
+
+def decode_texels(content: bytes, where: str, color: bool = True) -> Texels:
+    """Return an image as texels, (H, W, 4) float16: the values of `decode_image`, or grey as R, G
+    and B, and 1 for the alpha that it lacks.
+
+    Raises `SceneError` as `decode_image` does, and for float values that float16 cannot hold.
+    """
+    stored = _stored(content, where, color)
+    if stored.dtype == np.uint8:
+        return halves(stored, color)
+    pixels = stored if stored.dtype == np.float32 else linear(stored, color)
+    check_brightness(pixels, BRIGHTEST, where)
+    found = np.ones((*pixels.shape[:2], 4), np.float16)
+    channels = pixels.shape[2]
+    found[..., :3] = pixels[..., :1] if channels < 3 else pixels[..., :3]
+    if channels in (2, 4):
+        found[..., 3] = pixels[..., -1]
+    return found
+
+
+def check_brightness(pixels: Pixels, most: float, where: str) -> None:
+    """Raise SceneError for an image with a value above `most`."""
+    if pixels.max() > most:
+        raise SceneError(f"{where}: this image is brighter than {most:,g}; scale it down.")
+
+
+def _stored(content: bytes, where: str, color: bool) -> NDArray[Any]:
+    """Return codes, (H, W, C) uint8 or uint16, or linear values in float32."""
     try:
         for begin, decode in _DECODERS.items():
             if re.match(begin, content, re.DOTALL):
-                return decode(content, color)
+                return decode(content)
+        for begin, read in _FLOAT_DECODERS.items():
+            if re.match(begin, content, re.DOTALL):
+                return read(content, color)
         raise RefusedImageError(
-            "is none of PNG, JPEG, WebP, Radiance .hdr and OpenEXR. Convert it to one of them"
+            "is none of PNG, JPEG, WebP, BMP, TGA, Radiance .hdr and OpenEXR. Convert it to one "
+            "of them"
         )
     except RefusedImageError as refused:
         raise SceneError(f"{where}: this image {refused}.") from None
 
 
-def decode_srgb(code: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return linear values, 0..1, of sRGB codes, 0..1: IEC 61966-2-1, piecewise."""
-    return np.where(code <= 0.04045, code / 12.92, ((code + 0.055) / 1.055) ** 2.4)
-
-
 # --- codes ----------------------------------------------------------------------
 
 
-def _decode_png(content: bytes, color: bool) -> Pixels:
+def _decode_png(content: bytes) -> Codes:
     from PIL.PngImagePlugin import PngImageFile
 
+    if frames_of_png(content) > 1:
+        raise RefusedImageError(_ANIMATION)
+    bare = bare_png(content)
     with _reading():
-        return _linear(_png_codes(lambda: PngImageFile(io.BytesIO(content))), color)
+        return _png_codes(lambda: PngImageFile(io.BytesIO(bare)))
 
 
-def _decode_jpeg(content: bytes, color: bool) -> Pixels:
+def _decode_jpeg(content: bytes) -> Codes:
     from PIL.JpegImagePlugin import JpegImageFile
 
-    with _reading(), JpegImageFile(io.BytesIO(content)) as image:
+    with _reading(), JpegImageFile(io.BytesIO(bare_jpeg(content))) as image:
         check_size(*image.size)
-        if image.mode == "CMYK":
-            raise RefusedImageError("is in CMYK, for printing. Convert it to RGB")
         scans = content.count(b"\xff\xda")
         if scans * image.width * image.height > _MOST_SCANS * MOST_PIXELS:
             raise damaged(f"it goes over its pixels {scans:,} times")
-        return _linear(_planes(image), color)
+        return _planes(image.convert("RGB") if image.mode == "CMYK" else image)
 
 
-def _decode_webp(content: bytes, color: bool) -> Pixels:
+def _decode_webp(content: bytes) -> Codes:
     from PIL import features
     from PIL.WebPImagePlugin import WebPImageFile
 
@@ -97,28 +131,29 @@ def _decode_webp(content: bytes, color: bool) -> Pixels:
         raise RefusedImageError("is WebP, which Pillow cannot read here. Convert it to PNG")
     with _reading(), WebPImageFile(io.BytesIO(content)) as image:
         check_size(*image.size)
-        _check_still(image)
-        return _linear(_planes(image), color)
+        if image.is_animated:
+            raise RefusedImageError(_ANIMATION)
+        return _planes(image)
 
 
-def _decode_bmp(content: bytes, color: bool) -> Pixels:
+def _decode_bmp(content: bytes) -> Codes:
     from PIL.BmpImagePlugin import BmpImageFile
 
-    return _plain(lambda: BmpImageFile(io.BytesIO(content)), color)
+    return _plain(lambda: BmpImageFile(io.BytesIO(content)))
 
 
-def _decode_tga(content: bytes, color: bool) -> Pixels:
+def _decode_tga(content: bytes) -> Codes:
     from PIL.TgaImagePlugin import TgaImageFile
 
-    return _plain(lambda: TgaImageFile(io.BytesIO(content)), color)
+    return _plain(lambda: TgaImageFile(io.BytesIO(content)))
 
 
-def _plain(opened: Callable[[], Any], color: bool) -> Pixels:
+def _plain(opened: Callable[[], Any]) -> Codes:
     """Read an image of 8 bits a channel, perhaps with a palette."""
     with _reading(), opened() as image:
         check_size(*image.size)
         is_plain = image.mode in ("L", "LA", "RGB", "RGBA")
-        return _linear(_planes(image if is_plain else image.convert("RGB")), color)
+        return _planes(image if is_plain else image.convert("RGB"))
 
 
 @contextmanager
@@ -136,15 +171,12 @@ def _reading() -> Iterator[None]:
             ) from None
 
 
-def _check_still(image: Any) -> None:
-    if image.is_animated:
-        raise RefusedImageError("is an animation. Save one picture of it")
+_ANIMATION = "is an animation. Save one picture of it"
 
 
 def _png_codes(opened: Callable[[], Any]) -> Codes:
     with opened() as image:
         check_size(*image.size)
-        _check_still(image)
         stored = image.tile[0].args if image.tile else ""
         if stored in _PARTS_OF_16_BITS:
             return _with_key(_sixteen_bits(opened, stored), image, 1)
@@ -189,25 +221,15 @@ def _planes(image: Any) -> Codes:
     return codes[:, :, None] if codes.ndim == 2 else codes
 
 
-def _linear(codes: Codes, color: bool) -> Pixels:
-    most = np.iinfo(codes.dtype).max
-    scaled = np.arange(most + 1) / most
-    table = (decode_srgb(scaled) if color else scaled).astype(np.float32)
-    pixels = np.empty(codes.shape, np.float32)
-    for row, stored in zip(pixels, codes, strict=True):  # a row at a time: indices take 8 bytes
-        row[:] = table[stored]
-        if codes.shape[2] in (2, 4):
-            row[:, -1] = scaled[stored[:, -1]]
-    return pixels
-
-
 # How a file of each format begins.
-_DECODERS: dict[bytes, Callable[[bytes, bool], Pixels]] = {
+_DECODERS: dict[bytes, Callable[[bytes], Codes]] = {
     rb"\x89PNG\r\n\x1a\n": _decode_png,
     rb"\xff\xd8\xff": _decode_jpeg,
     rb"RIFF....WEBP": _decode_webp,
-    rb"#\?": decode_hdr,
-    rb"\x76\x2f\x31\x01": decode_exr,
     rb"BM....\0\0\0\0": _decode_bmp,
     rb".[\0\1][\1-\3\x09-\x0b]": _decode_tga,  # TGA has no mark of its own
+}
+_FLOAT_DECODERS: dict[bytes, Callable[[bytes, bool], Pixels]] = {
+    rb"#\?": decode_hdr,
+    rb"\x76\x2f\x31\x01": decode_exr,
 }

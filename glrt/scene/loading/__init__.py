@@ -2,6 +2,7 @@
 
 Modules, each importing only what stands above it:
 
+- companions: files that another file names by their paths
 - file_contents: contents of named files
 - file_materials: materials in OBJ and glTF files
 - mesh_parts: meshes divided by the materials of their file

@@ -4,22 +4,22 @@ from pathlib import PurePosixPath
 
 import numpy as np
 
-from glrt.core.errors import SceneError
+from glrt.core.errors import SceneError, of_content
 from glrt.core.text import quoted
-from glrt.scene.files.assets import Asset, AssetReader, folder_of
+from glrt.scene.files.assets import Asset, AssetReader
 from glrt.scene.files.named_cameras import CameraFile
 from glrt.scene.files.named_files import container_of
 from glrt.scene.files.named_grids import GridFile, decode_grid
-from glrt.scene.files.named_images import ImageFile, Pixels, Texels, TextureImage
+from glrt.scene.files.named_images import ImageFile, Pixels, TextureImage
 from glrt.scene.files.named_meshes import MeshFile
-from glrt.scene.images.image_files import decode_image
+from glrt.scene.images.image_files import check_brightness, decode_image, decode_texels
+from glrt.scene.loading.companions import Beside
 from glrt.scene.model_files.gltf.cameras import FileCameras
-from glrt.scene.model_files.gltf.document import Document, LacksExtensionError
+from glrt.scene.model_files.gltf.document import LacksExtensionError
 from glrt.scene.model_files.gltf.images import image_content
 from glrt.scene.model_files.mesh_formats import GLTF, decode_mesh
 from glrt.scene.values import LARGEST
 
-BRIGHTEST = 65_504.0  # of a texture: the largest half float
 NamedContent = ImageFile | TextureImage | MeshFile | CameraFile | GridFile
 
 
@@ -30,34 +30,18 @@ def with_content(named: NamedContent, reader: AssetReader, where: str) -> NamedC
     asset = reader.read(named.path, where)
     if isinstance(named, MeshFile):
         beside = Beside(asset, reader, where)
-        mesh = decode_mesh(asset.content, named.file, where, beside)
+        mesh = decode_mesh(asset.content, named.file, where, beside, beside.document)
         return named.read_as(asset.sha256, mesh, asset.origin).with_companions(beside.hashes)
     if isinstance(named, GridFile):
         try:
             return named.read_as(asset.sha256, decode_grid(asset.content), asset.origin)
         except ValueError as error:
-            raise SceneError(f"{where}: {named.file}: {error}.") from None
+            raise SceneError(f"{where}: {named.file}: {of_content(error)}.") from None
     if isinstance(named, TextureImage):
         return _texture(named, asset, reader, where)
     pixels = _colors(decode_image(asset.content, f"{where}: {named.file}"))
-    _check_brightness(pixels, LARGEST, f"{where}: {named.file}")
+    check_brightness(pixels, LARGEST, f"{where}: {named.file}")
     return named.read_as(asset.sha256, pixels, asset.origin)
-
-
-class Beside:
-    """Reads files by their paths from another one, and keeps their SHA-256 by path."""
-
-    def __init__(self, asset: Asset, reader: AssetReader, where: str) -> None:
-        """Read files by their paths from an asset."""
-        self._asset, self._reader, self._where = asset, reader, where
-        self.hashes: dict[str, str] = {}
-
-    def __call__(self, path: str) -> bytes:
-        """Return the content of the file at a path; raises `SceneError`."""
-        spelled = self._reader.spelled(path, folder_of(self._asset.path))
-        found = self._reader.read(spelled, f"{self._where}: {self._asset.path}")
-        self.hashes[found.path] = found.sha256
-        return found.content
 
 
 def _cameras(named: CameraFile, reader: AssetReader, where: str) -> CameraFile:
@@ -69,11 +53,13 @@ def _cameras(named: CameraFile, reader: AssetReader, where: str) -> CameraFile:
     asset = reader.read(named.path, where)
     beside = Beside(asset, reader, where)
     try:
-        cameras = FileCameras(Document(asset.content, beside))
+        cameras = FileCameras(beside.document())
     except LacksExtensionError as error:
         raise SceneError(f"{where}: {quoted(named.file)} {error}. Export it without.") from None
     except ValueError as error:
-        raise SceneError(f"{where}: {quoted(named.file)}: {error}. Export it again.") from None
+        raise SceneError(
+            f"{where}: {quoted(named.file)}: {of_content(error)}. Export it again."
+        ) from None
     found = named.read_as(asset.sha256, cameras, asset.origin)
     return found.with_companions(beside.hashes)
 
@@ -83,19 +69,15 @@ def _texture(named: TextureImage, asset: Asset, reader: AssetReader, where: str)
     content = asset.content
     if number is not None:
         try:
-            content = image_content(Document(content, beside), number)
+            content = image_content(beside.document(), number)
         except ValueError as error:
-            raise SceneError(f"{where}: {named.file}: {error}. Export the file again.") from None
+            raise SceneError(
+                f"{where}: {named.file}: {of_content(error)}. Export the file again."
+            ) from None
     place = f"{where}: {named.file}"
-    pixels = decode_image(content, place, color=named.is_color)
-    _check_brightness(pixels, BRIGHTEST, place)
-    found = named.read_as(asset.sha256, _texels(pixels), asset.origin)
+    texels = decode_texels(content, place, color=named.is_color)
+    found = named.read_as(asset.sha256, texels, asset.origin)
     return found.with_companions(beside.hashes)
-
-
-def _check_brightness(pixels: Pixels, most: float, where: str) -> None:
-    if pixels.max() > most:
-        raise SceneError(f"{where}: this image is brighter than {most:,g}; scale it down.")
 
 
 def _colors(pixels: Pixels) -> Pixels:
@@ -103,13 +85,3 @@ def _colors(pixels: Pixels) -> Pixels:
     channels = pixels.shape[2]
     planes = pixels[..., :1].repeat(3, axis=2) if channels < 3 else pixels[..., :3]
     return np.ascontiguousarray(planes, np.float32)
-
-
-def _texels(pixels: Pixels) -> Texels:
-    """Return texels, (H, W, 4): colours, and alpha or 1."""
-    found = np.ones((*pixels.shape[:2], 4), np.float16)
-    channels = pixels.shape[2]
-    found[..., :3] = pixels[..., :1] if channels < 3 else pixels[..., :3]
-    if channels in (2, 4):
-        found[..., 3] = pixels[..., -1]
-    return found

@@ -3,18 +3,18 @@
 Properties that scenes do not have are left out, and the file of the mesh lists them.
 """
 
-from glrt.core.errors import SceneError
+from glrt.core.errors import SceneError, of_content
 from glrt.core.text import counted, quoted
 from glrt.scene.files.assets import AssetReader, folder_of
 from glrt.scene.files.named_images import TextureImage
 from glrt.scene.files.named_meshes import MeshFile
-from glrt.scene.loading.file_contents import Beside, with_content
+from glrt.scene.loading.companions import Beside
+from glrt.scene.loading.file_contents import with_content
 from glrt.scene.materials.base import Opaque
 from glrt.scene.materials.dielectric import Dielectric
 from glrt.scene.materials.kinds import Material
 from glrt.scene.materials.principled import Principled
 from glrt.scene.meshes.triangle_meshes import NO_MATERIAL
-from glrt.scene.model_files.gltf.document import Document
 from glrt.scene.model_files.gltf.materials import (
     Look,
     dye_unlit,
@@ -98,13 +98,15 @@ def of_gltf(shape: Mesh, reader: AssetReader, where: str) -> Found:
     images = _Images(reader, shape, where)
     own, unread = dict[str, Material](), list[str]()
     try:
-        document = Document(asset.content, Beside(asset, reader, where))
+        document = Beside(asset, reader, where).document()
         looks = looks_of(document, asset.path)
         for name, part in shape.triangles_of_file.parts.items():
             look = looks[name]
             if look.table.get("transmission") and not look.table["thin"] and part.opening:
                 look.unread.append("the volume of glass that is not closed")
                 make_pane(look)
+            if look.hides_backs and part.is_turned:
+                look.unread.append(f"the hidden backs of {quoted(name)}, a hull that shades")
             if look.hides_backs and not shape.hides_backs and part.opening:
                 look.unread.append(f"the hidden backs of {quoted(name)} (backfaces = hidden)")
             if look.is_unlit and part.colors is not None:
@@ -113,7 +115,7 @@ def of_gltf(shape: Mesh, reader: AssetReader, where: str) -> Found:
             own[name] = images.with_pixels(_of_look(look, images, here))
             unread += look.unread
     except ValueError as error:
-        raise SceneError(f"{where}: {shape.file.file}: {error}.") from None
+        raise SceneError(f"{where}: {shape.file.file}: {of_content(error)}.") from None
     unread += document.unknown_extensions
     if document.items("animations") and shape.time is None:
         unread.append("animations, which glrt film shows")

@@ -52,18 +52,19 @@ def sources_of(scene: SceneFields) -> dict[str, str]:
 
 
 def with_files(
-    scene: SceneType, folder: AssetFolder, source: str, rest: Material | None = None
+    scene: SceneType, folder: AssetFolder | AssetReader, source: str, rest: Material | None = None
 ) -> SceneType:
     """Return the scene with the content of its files; the same one if it names none, or has all.
 
-    `rest` is the material of triangles that have none in an OBJ file, which is refused without it.
-    Raises `SceneError`, as `source: key: ...`, for a file that is missing, too large, outside of
-    the folder, no image or mesh, or not as expected.
+    In place of a folder there may be a reader, which has read some of them. `rest` is the material
+    of triangles that have none in an OBJ file, which is refused without it. Raises `SceneError`, as
+    `source: key: ...`, for a file that is missing, too large, outside of the folder, no image or
+    mesh, or not as expected.
     """
-    reader = AssetReader(folder)
+    reader = folder if isinstance(folder, AssetReader) else AssetReader(folder)
     is_new = scene.camera.file is not None and not scene.camera.file.is_read
     scene = _read(scene, reader, source)
-    if is_new and folder.expected is None:  # the recipe of a picture holds it all
+    if is_new and reader.folder.expected is None:  # the recipe of a picture holds it all
         scene = with_camera_of_file(scene, source)
     scene = _read(with_own_materials(scene, reader, source, rest), reader, source)
     problem = next(placing_problems(scene), None)

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from glrt.core.errors import ContentError
 from glrt.core.text import counted, number
 from glrt.scene.meshes.repeated_triangles import repeated
 from glrt.scene.meshes.triangle_meshes import MOST_TRIANGLES, TriangleMesh
@@ -51,11 +52,11 @@ def checked(given: MeshArrays) -> TriangleMesh:
     vectors = {"normal": turned, "tangent": along}
     problem = next(_problems(points, triangles, vectors, dyes, sets), None)
     if problem:
-        raise ValueError(problem)
+        raise ContentError(problem)
     equal = triangles == np.roll(triangles, 1, axis=1)
     whole = ~equal.any(axis=1)
     if not whole.any():
-        raise ValueError("it has no triangle with three corners")
+        raise ContentError("it has no triangle with three corners")
     again = repeated(points, triangles, labels if sorts is None else sorts) & whole
     whole &= ~again
     kept = triangles[whole]
@@ -104,13 +105,13 @@ def _table(value: Any, name: str, dtype: type) -> NDArray[Any]:
     try:
         found = np.asarray(value)
     except ValueError:
-        raise ValueError(f"{name} must be an array of shape (n, 3)") from None
+        raise ContentError(f"{name} must be an array of shape (n, 3)") from None
     if found.ndim != 2 or found.shape[1] != 3 or found.dtype.kind not in "fiu":
-        raise ValueError(
+        raise ContentError(
             f"{name} must be an array of numbers of shape (n, 3), got one of shape {found.shape}"
         )
     if dtype is np.int64 and found.dtype.kind == "f":
-        raise ValueError(f"{name} must be whole numbers, the numbers of vertices")
+        raise ContentError(f"{name} must be whole numbers, the numbers of vertices")
     return np.ascontiguousarray(found, dtype)
 
 

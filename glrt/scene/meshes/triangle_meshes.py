@@ -57,6 +57,7 @@ class TriangleMesh:
     poses: Poses | None = None  # at moments of the file's animations; None if it has none
     repeated: int = 0  # triangles that were left out, since another one had the same corners
     unread: tuple[str, ...] = ()  # parts of the file that were left out, in words
+    is_turned: bool = False  # whether the file winds its triangles the other way
 
     @cached_property
     def box(self) -> tuple[Floats, Floats]:
@@ -119,7 +120,7 @@ class TriangleMesh:
         """The mesh, with the triangles of a closed one turned over if they face inwards."""
         if self.opening or self._volume() >= 0:
             return self
-        return replace(self, faces=self.faces[:, ::-1].copy())
+        return replace(self, faces=self.faces[:, ::-1].copy(), is_turned=not self.is_turned)
 
     @cached_property
     def parts(self) -> dict[str, "TriangleMesh"]:
@@ -133,12 +134,17 @@ class TriangleMesh:
         return {name: self._only(kept, sums) for name, kept in named if len(kept)}
 
     def _only(self, kept: Ints, normals: Floats) -> "TriangleMesh":
-        used, faces = np.unique(self.faces[kept], return_inverse=True)
+        is_all = len(kept) == len(self.faces) and _are_all_used(self.faces, len(self.vertices))
+        used: Any = slice(None)
+        faces = self.faces
+        if not is_all:
+            used, faces = np.unique(self.faces[kept], return_inverse=True)
         given = self.colors, self.uv, self.tangents
         colors, uv, tangents = (None if rows is None else rows[used] for rows in given)
         own = self.vertices[used], faces.reshape(-1, 3), normals[used], colors
         groups = None if self.groups is None else self.groups[kept]
-        return TriangleMesh(*own, uv=uv, groups=groups, tangents=tangents).outward
+        part = TriangleMesh(*own, uv=uv, groups=groups, tangents=tangents, is_turned=self.is_turned)
+        return part if is_all and self.outward is self else part.outward
 
     def varied(self, name: str | None) -> "TriangleMesh":
         """Return the mesh with the materials of a variant, by default with those without one.
@@ -206,3 +212,9 @@ class TriangleMesh:
 
     def _mean_normals(self) -> Floats:
         return mean_normals(self.vertices, self.faces, self._place)
+
+
+def _are_all_used(faces: Ints, count: int) -> bool:
+    used = np.zeros(count, bool)
+    used[faces] = True
+    return bool(used.all())

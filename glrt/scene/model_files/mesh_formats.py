@@ -5,12 +5,12 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import PurePosixPath
 
-from glrt.core.errors import SceneError
+from glrt.core.errors import ContentError, SceneError, of_content
 from glrt.core.text import quoted
 from glrt.scene.meshes.checked_meshes import of_file
 from glrt.scene.meshes.triangle_meshes import TriangleMesh
 from glrt.scene.model_files.gltf.animations import Poses
-from glrt.scene.model_files.gltf.document import Document, LacksExtensionError
+from glrt.scene.model_files.gltf.document import Document, LacksExtensionError, NothingShownError
 from glrt.scene.model_files.gltf.draco import NotInstalledError
 from glrt.scene.model_files.gltf.primitives import mesh_of
 from glrt.scene.model_files.obj import read_obj
@@ -19,16 +19,23 @@ from glrt.scene.model_files.stl import read_stl
 
 FORMATS = (".ply", ".obj", ".stl", ".glb", ".gltf")
 GLTF = (".glb", ".gltf")
+_LONGEST = 200  # letters of a problem in a message
 Fetch = Callable[[str], bytes]  # the content of a file by its path from this one
 
 
-def decode_mesh(content: bytes, path: str, where: str, fetch: Fetch | None = None) -> TriangleMesh:
+def decode_mesh(
+    content: bytes,
+    path: str,
+    where: str,
+    fetch: Fetch | None = None,
+    document: Callable[[], Document] | None = None,
+) -> TriangleMesh:
     """Return the mesh in the content of a file; the suffix of its path decides the format.
 
     Polygons are divided into triangles. Vertex colours are linear where a PLY file has them as
     floats, else sRGB. The names of materials of OBJ and glTF files are read; colours of faces are
-    not. `fetch` reads the buffers of glTF files. Raises `SceneError`, which begins with `where`, if
-    there is no mesh.
+    not. `fetch` reads the buffers of glTF files, and `document` gives one that is parsed already.
+    Raises `SceneError`, which begins with `where`, if there is no mesh.
     """
     suffix = PurePosixPath(path).suffix.lower()
     if suffix not in FORMATS:
@@ -40,7 +47,7 @@ def decode_mesh(content: bytes, path: str, where: str, fetch: Fetch | None = Non
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of arithmetic with NaN, which is found below
             if suffix in GLTF:
-                return _of_gltf(Document(content, fetch or _alone))
+                return _of_gltf(document() if document else Document(content, fetch or _alone))
             return of_file(*_READERS[suffix](content))
     except SceneError:
         raise  # of a file next to it
@@ -49,10 +56,15 @@ def decode_mesh(content: bytes, path: str, where: str, fetch: Fetch | None = Non
     except LacksExtensionError as error:
         advice = "Export it without, or convert it by a program that reads it"
         raise SceneError(f"{where}: {quoted(path)} {error}. {advice}.") from None
+    except NothingShownError:
+        raise SceneError(
+            f"{where}: {quoted(path)} shows no triangles: no node of its scene has a mesh of them. "
+            "Export it with its meshes."
+        ) from None
     except MemoryError:
         problem = "it says that it is larger than the memory"
     except (ValueError, LookupError, TypeError, ArithmeticError) as error:
-        problem = _reason(error)
+        problem = of_content(error)[:_LONGEST]
     raise SceneError(
         f"{where}: {quoted(path)} is damaged, or no {suffix[1:].upper()} file: {problem}. Export "
         "it again."
@@ -60,7 +72,7 @@ def decode_mesh(content: bytes, path: str, where: str, fetch: Fetch | None = Non
 
 
 def _alone(path: str) -> bytes:
-    raise ValueError(f"it names {quoted(path)}, and only its own content is at hand")
+    raise ContentError(f"it names {quoted(path)}, and only its own content is at hand")
 
 
 def _of_gltf(document: Document) -> TriangleMesh:
@@ -69,8 +81,3 @@ def _of_gltf(document: Document) -> TriangleMesh:
 
 
 _READERS = {".obj": read_obj, ".ply": read_ply, ".stl": read_stl}
-
-
-def _reason(error: Exception) -> str:
-    text = str(error).split("\n")[0].strip().rstrip(".")
-    return text[:200] or type(error).__name__

@@ -15,6 +15,7 @@ from glrt.scene.materials.kinds import Material
 from glrt.scene.materials.lambertian import Lambertian
 from glrt.scene.materials.metal import Metal
 from glrt.scene.materials.textures import Texture
+from glrt.scene.model_files.text_lines import lines_of
 from glrt.scene.values import BLACK, LARGEST, WHITE, Color, Radiance
 
 LONGEST = 16 << 20  # bytes of a file
@@ -65,8 +66,8 @@ def decode_mtl(content: bytes, where: str) -> dict[str, Entry]:
         raise SceneError(f"{where}: this MTL file is larger than {LONGEST >> 20} MiB.")
     found: dict[str, Entry] = {}
     entry, early = None, dict[str, None]()
-    for line in content.decode("utf-8-sig", "replace").split("\n"):
-        key, _, rest = _COMMENT.sub("", line).strip().replace("\t", " ").partition(" ")
+    for line in lines_of(content):
+        key, _, rest = _COMMENT.sub("", line).strip().partition(" ")
         if not key or key.startswith("#"):
             continue
         if key == "newmtl":

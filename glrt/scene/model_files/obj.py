@@ -8,8 +8,9 @@ from itertools import chain, repeat
 import numpy as np
 from numpy.typing import NDArray
 
+from glrt.core.errors import ContentError
 from glrt.core.text import counted, quoted
-from glrt.scene.images.image_files import decode_srgb
+from glrt.scene.images.codes import decode_srgb
 from glrt.scene.meshes.checked_meshes import MeshArrays
 from glrt.scene.meshes.triangle_meshes import NO_MATERIAL
 from glrt.scene.model_files.polygons import triangulated
@@ -59,7 +60,7 @@ def read_obj(content: bytes) -> tuple[MeshArrays, tuple[str, ...]]:
     }
     words, faces, unread = _faces_of(lines.get("f", empty))
     if not words:
-        raise ValueError("it has no faces")
+        raise ContentError("it has no faces")
     counts = np.fromiter(map(len, words), np.int64, len(words))
     corners, missing = _corners(words, faces, lines, table)
     unread += missing
@@ -156,7 +157,7 @@ def _check_vertices(wrong: NDArray[np.bool_], index: Ints, of_line: Ints, count:
         corner = int(wrong.argmax())
         line = of_line[corner] + 1
         has = counted(count, "vertex")
-        raise ValueError(f"line {line} names vertex {index[corner]}, and the file has {has}")
+        raise ContentError(f"line {line} names vertex {index[corner]}, and the file has {has}")
 
 
 def _indices(words: list[str], of_line: Ints) -> Ints:
@@ -188,7 +189,7 @@ def _index(word: str, place: int) -> list[int]:
     except ValueError:
         numbers = []
     if not 1 <= len(numbers) <= len(_KINDS) or max(map(abs, numbers)) > _LARGEST:
-        raise ValueError(f"line {place + 1} has a corner that is not numbers: {quoted(word)}")
+        raise ContentError(f"line {place + 1} has a corner that is not numbers: {quoted(word)}")
     return [*numbers, 0, 0][: len(_KINDS)]
 
 

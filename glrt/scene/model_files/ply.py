@@ -5,8 +5,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from glrt.core.errors import ContentError
 from glrt.core.text import counted
-from glrt.scene.images.image_files import decode_srgb
+from glrt.scene.images.codes import decode_srgb
 from glrt.scene.meshes.checked_meshes import MeshArrays
 from glrt.scene.model_files.ply_tables import Columns, Ragged, tables_of
 from glrt.scene.model_files.polygons import triangulated
@@ -31,12 +32,12 @@ def read_ply(content: bytes) -> tuple[MeshArrays, tuple[str, ...]]:
     vertex = tables.get("vertex", {})
     points = _columns(vertex, "xyz")
     if points is None:
-        raise ValueError("it has no vertices with x, y and z")
+        raise ContentError("it has no vertices with x, y and z")
     corners, counts, uv, unread = _faces(tables)
     if corners.size and not 0 <= corners.min() <= corners.max() < len(points):
         wrong = corners[(corners < 0) | (corners >= len(points))][0]
         has = counted(len(points), "vertex")
-        raise ValueError(f"a face names vertex {wrong}, and the file has {has}, numbered from 0")
+        raise ContentError(f"a face names vertex {wrong}, and the file has {has}, numbered from 0")
     triangles, _ = triangulated(points, corners, counts)
     normals, colors = _columns(vertex, ("nx", "ny", "nz")), _colors(vertex)
     if uv is not None:
@@ -81,7 +82,7 @@ def _faces(tables: dict[str, Columns]) -> tuple[Ints, Ints, Floats | None, list[
     if lists is None:
         strip = next((c for c in strips.values() if isinstance(c, Ragged)), None)
         if strip is None:
-            raise ValueError("it has no faces with a list of vertex_indices")
+            raise ContentError("it has no faces with a list of vertex_indices")
         corners = _of_strips(strip.values.astype(np.int64))
         return corners.ravel(), np.full(len(corners), 3), None, []
     corners, counts = lists.values.astype(np.int64), lists.counts

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, field
 
+from glrt.core.errors import ContentError
 from glrt.core.text import quoted
 from glrt.scene.model_files.text_lines import text_of
 
@@ -56,7 +57,7 @@ def header_of(content: bytes) -> tuple[str, list[Element], int]:
     head = content[:_LONGEST_HEADER]
     end = head.find(b"end_header")
     if not head.startswith(b"ply") or end < 0:
-        raise ValueError("it does not begin with a header from `ply` to `end_header`")
+        raise ContentError("it does not begin with a header from `ply` to `end_header`")
     start = end + len(b"end_header")
     if content[start : start + 2] == b"\r\n":
         start += 1
@@ -69,18 +70,18 @@ def header_of(content: bytes) -> tuple[str, list[Element], int]:
             elements.append(_element(words))
         elif words[:1] == ["property"]:
             if not elements:
-                raise ValueError("a property stands before the first element of its header")
+                raise ContentError("a property stands before the first element of its header")
             elements[-1].properties.append(_property(words))
     if order is None:
-        raise ValueError("its header names no format that PLY files have")
+        raise ContentError("its header names no format that PLY files have")
     return order, elements, start + 1
 
 
 def _element(words: list[str]) -> Element:
     if len(words) != len(("element", "NAME", "COUNT")) or not words[2].isdecimal():
-        raise ValueError(f"its header has the element {quoted(' '.join(words[1:]))}")
+        raise ContentError(f"its header has the element {quoted(' '.join(words[1:]))}")
     if (count := int(words[2])) > _MOST:
-        raise ValueError(f"its header announces {count:,} rows of {words[1]}")
+        raise ContentError(f"its header announces {count:,} rows of {words[1]}")
     return Element(words[1], count)
 
 
@@ -92,4 +93,4 @@ def _property(words: list[str]) -> Property:
         count, kind = kinds[1:]
         if count and kind:
             return Property(words[-1], kind, count)
-    raise ValueError(f"its header has the property {quoted(' '.join(words[1:]))}")
+    raise ContentError(f"its header has the property {quoted(' '.join(words[1:]))}")

@@ -6,6 +6,7 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from glrt.core.errors import ContentError
 from glrt.core.text import quoted
 from glrt.scene.model_files.ply_header import Element, Property, header_of
 from glrt.scene.model_files.text_lines import parsed, text_of
@@ -69,7 +70,7 @@ class _Binary:
         try:
             return np.dtype(fields)
         except ValueError:
-            raise ValueError(f"two properties of {element.name} have one name") from None
+            raise ContentError(f"two properties of {element.name} have one name") from None
 
     def _rows(self, dtype: np.dtype[Any], element: Element) -> NDArray[Any]:
         if len(self._content) < self._at + element.count * dtype.itemsize:
@@ -115,7 +116,7 @@ class _Binary:
                 length = int(np.frombuffer(self._content, dtype, 1, at)[0])
                 at += size
                 if length < 0:
-                    raise ValueError(f"a list of {element.name} has {length} numbers")
+                    raise ContentError(f"a list of {element.name} has {length} numbers")
             yield column.name, length, at
             at += length * int(column.kind[1])
         if at > len(self._content):
@@ -161,8 +162,10 @@ class _Binary:
         return Ragged(values, lengths) if column.count else values
 
 
-def _cut_off(element: Element) -> ValueError:
-    return ValueError(f"it is cut off: it has fewer than {element.count:,} rows of {element.name}")
+def _cut_off(element: Element) -> ContentError:
+    return ContentError(
+        f"it is cut off: it has fewer than {element.count:,} rows of {element.name}"
+    )
 
 
 class _Text:
@@ -173,7 +176,7 @@ class _Text:
         values = parsed(text, np.float64)
         if values is None:
             wrong = next((w for w in text.split() if parsed(w, np.float64) is None), "")
-            raise ValueError(f"its rows have other words than numbers: {quoted(wrong[:_SHOWN])}")
+            raise ContentError(f"its rows have other words than numbers: {quoted(wrong[:_SHOWN])}")
         self._values = values
         self._at = 0
 
@@ -199,7 +202,7 @@ class _Text:
     def _length(self, element: Element) -> int:
         length = float(self._taken(1, element)[0])
         if not 0 <= length <= len(self._values):
-            raise ValueError(f"a list of {element.name} has {length:g} numbers")
+            raise ContentError(f"a list of {element.name} has {length:g} numbers")
         return int(length)
 
     def _taken(self, count: int, element: Element) -> NDArray[np.float64]:
@@ -218,5 +221,5 @@ def _as_kind(values: NDArray[np.float64], column: Property) -> NDArray[Any]:
     wrong = ~((values >= limits.min) & (values <= limits.max))
     if wrong.any():
         value = values[int(wrong.argmax())]
-        raise ValueError(f"{column.name} is {value:g}, not from {limits.min} to {limits.max}")
+        raise ContentError(f"{column.name} is {value:g}, not from {limits.min} to {limits.max}")
     return values.astype(column.kind)

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from glrt.core.errors import ContentError
 from glrt.core.text import counted
 from glrt.scene.meshes.checked_meshes import MeshArrays
 from glrt.scene.meshes.vertex_means import places
@@ -40,10 +41,10 @@ def _binary(content: bytes) -> np.ndarray[Any, Any] | None:
     if len(content) != length and _is_text(content):
         return None
     if len(content) < start:
-        raise ValueError("it is neither a text nor long enough for a header")
+        raise ContentError("it is neither a text nor long enough for a header")
     if len(content) < length:
         there = (len(content) - start) // _FACET.itemsize
-        raise ValueError(f"it is cut off: it has {there:,} of {counted(count, 'triangle')}")
+        raise ContentError(f"it is cut off: it has {there:,} of {counted(count, 'triangle')}")
     return np.frombuffer(content, _FACET, count, start)["corners"]
 
 
@@ -65,5 +66,5 @@ def _text(content: bytes) -> np.ndarray[Any, Any]:
         places = np.searchsorted(ends, [match.start() for match in found])
         corners = number_rows(rows, places.tolist(), 3)
     if len(corners) % 3:
-        raise ValueError(f"its last triangle is cut off: it has {len(corners):,} corners")
+        raise ContentError(f"its last triangle is cut off: it has {len(corners):,} corners")
     return corners.reshape(-1, 3, 3)

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from glrt.core.errors import ContentError
 from glrt.core.text import quoted
 
 Floats = NDArray[np.float64]
@@ -68,7 +69,7 @@ def _numbers(texts: Sequence[str], places: Sequence[int], kind: type) -> NDArray
         if parsed(text, kind) is None:
             wanted = "whole numbers" if kind is np.int64 else "numbers"
             raise _bad_line(text, place, f"other words than {wanted}")
-    raise ValueError("its numbers cannot be read")
+    raise ContentError("its numbers cannot be read")
 
 
 def parsed(text: str, kind: type) -> NDArray[Any] | None:
@@ -81,6 +82,6 @@ def parsed(text: str, kind: type) -> NDArray[Any] | None:
         return None
 
 
-def _bad_line(text: str, place: int, problem: str) -> ValueError:
+def _bad_line(text: str, place: int, problem: str) -> ContentError:
     shown = quoted(text[:_SHOWN])
-    return ValueError(f"line {place + 1} has {problem}: {shown}")
+    return ContentError(f"line {place + 1} has {problem}: {shown}")

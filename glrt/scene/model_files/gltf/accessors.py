@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from glrt.core.errors import ContentError
 from glrt.scene.model_files.gltf.document import Document, whole
 
 Floats = NDArray[np.float64]
@@ -19,7 +20,7 @@ def floats(document: Document, index: Any, sizes: tuple[int, ...], where: str) -
     """Return the numbers of an accessor, (n, size); normalized integers become numbers up to 1."""
     rows, accessor = _rows(document, index, where)
     if rows.shape[1] not in sizes:
-        raise ValueError(f"accessors[{index}] has {rows.shape[1]} numbers each, as {where}")
+        raise ContentError(f"accessors[{index}] has {rows.shape[1]} numbers each, as {where}")
     found = rows.astype(np.float64)
     if accessor.get("normalized") is True and rows.dtype.kind in "iu":
         found = np.maximum(found / np.iinfo(rows.dtype).max, -1.0)
@@ -30,7 +31,7 @@ def indices(document: Document, index: Any, where: str) -> Ints:
     """Return the whole numbers of an accessor, (n,)."""
     rows, _ = _rows(document, index, where)
     if rows.shape[1] != 1 or rows.dtype.kind != "u":
-        raise ValueError(f"accessors[{index}], {where}, must be of whole numbers without a sign")
+        raise ContentError(f"accessors[{index}], {where}, must be of whole numbers without a sign")
     return rows[:, 0].astype(np.int64)
 
 
@@ -38,7 +39,7 @@ def _rows(document: Document, index: Any, where: str) -> tuple[NDArray[Any], dic
     accessor, here = document.item("accessors", index, where), f"accessors[{index}]"
     count = whole(accessor.get("count"), f"{here}.count", least=1)
     if count > MOST:
-        raise ValueError(f"{here}.count must be at most {MOST:,}, got {count:,}")
+        raise ContentError(f"{here}.count must be at most {MOST:,}, got {count:,}")
     dtype, size = _kind(accessor, here)
     if "bufferView" in accessor:
         place = accessor["bufferView"], accessor.get("byteOffset", 0)
@@ -54,9 +55,9 @@ def _rows(document: Document, index: Any, where: str) -> tuple[NDArray[Any], dic
 def _kind(accessor: dict[str, Any], here: str) -> tuple[np.dtype[Any], int]:
     component, kind = accessor.get("componentType"), accessor.get("type")
     if type(component) is not int or component not in _TYPES:
-        raise ValueError(f"{here}.componentType is none of {', '.join(map(str, _TYPES))}")
+        raise ContentError(f"{here}.componentType is none of {', '.join(map(str, _TYPES))}")
     if not isinstance(kind, str) or kind not in _SIZES:
-        raise ValueError(f"{here}.type is none of {', '.join(_SIZES)}")
+        raise ContentError(f"{here}.type is none of {', '.join(_SIZES)}")
     return np.dtype(_TYPES[component]), _SIZES[kind]
 
 
@@ -73,9 +74,11 @@ def _strided(
     offset, width = whole(place[1], f"{here}.byteOffset"), dtype.itemsize * size
     step = stride or width
     if step < width:
-        raise ValueError(f"{here} has rows of {width} bytes, and its view a byteStride of {stride}")
+        raise ContentError(
+            f"{here} has rows of {width} bytes, and its view a byteStride of {stride}"
+        )
     if offset + step * (count - 1) + width > len(content):
-        raise ValueError(f"{here} ends after its view, which has {len(content):,} bytes")
+        raise ContentError(f"{here} ends after its view, which has {len(content):,} bytes")
     shape, strides = (count, size), (step, dtype.itemsize)
     return np.ndarray(shape, dtype, content, offset, strides)
 
@@ -86,17 +89,17 @@ def _replaced(
     """Return the rows with some replaced, as a sparse accessor says."""
     count = whole(sparse.get("count"), f"{here}.count", least=1)
     if count > len(rows):
-        raise ValueError(f"{here}.count must be at most {len(rows):,}, got {count:,}")
+        raise ContentError(f"{here}.count must be at most {len(rows):,}, got {count:,}")
     parts = {name: document.table(sparse.get(name), f"{here}.{name}") for name in _PARTS}
     at, by = (
         (part.get("bufferView"), part.get("byteOffset", 0)) for part in (parts[n] for n in _PARTS)
     )
     dtype, _ = _kind({**parts["indices"], "type": "SCALAR"}, f"{here}.indices")
     if dtype.kind != "u":
-        raise ValueError(f"{here}.indices must be of whole numbers without a sign")
+        raise ContentError(f"{here}.indices must be of whole numbers without a sign")
     numbers = _strided(document, at, dtype, 1, count, f"{here}.indices")[:, 0].astype(np.int64)
     if numbers.max() >= len(rows):
-        raise ValueError(f"{here}.indices names row {numbers.max()}, of {len(rows):,} from 0")
+        raise ContentError(f"{here}.indices names row {numbers.max()}, of {len(rows):,} from 0")
     found = rows.copy()
     found[numbers] = _strided(document, by, rows.dtype, rows.shape[1], count, f"{here}.values")
     return found

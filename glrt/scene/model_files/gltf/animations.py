@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from glrt.core.errors import ContentError
 from glrt.core.text import unknown
 from glrt.scene.animation.interpolation import between, hermite
 from glrt.scene.animation.rotations import unit
@@ -83,7 +84,7 @@ class Poses:
         """
         name = self.usual if name is None else name
         if name not in self._channels:
-            raise ValueError(unknown("animation", name, self.names, "The file has"))
+            raise ContentError(unknown("animation", name, self.names, "The file has"))
         return self._posed(name, moment)
 
     def _pose(self, name: str, moment: float) -> TriangleMesh:
@@ -135,7 +136,7 @@ def _channels(document: Document, animation: dict[str, Any], here: str) -> list[
         document.item("nodes", node, f"{where}.target.node")
         index = channel.get("sampler")
         if type(index) is not int or not 0 <= index < len(samplers):
-            raise ValueError(f"{where} names a sampler that there is not")
+            raise ContentError(f"{where} names a sampler that there is not")
         at = f"{here}.samplers[{index}]"
         found.append(_channel(document, document.table(samplers[index], at), node, path, at))
     return found
@@ -146,16 +147,16 @@ def _channel(
 ) -> Channel:
     way = sampler.get("interpolation", "LINEAR")
     if way not in _WAYS:
-        raise ValueError(f"{here}.interpolation must be LINEAR, STEP or CUBICSPLINE")
+        raise ContentError(f"{here}.interpolation must be LINEAR, STEP or CUBICSPLINE")
     times = floats(document, sampler.get("input"), (1,), f"{here}.input").ravel()
     width = _WIDTHS.get(path, 1)
     rows = floats(document, sampler.get("output"), (width,), f"{here}.output")
     keys = len(times) * (_TRIPLE if way == _CUBIC else 1)
     if not keys or len(rows) % keys or (path != _WEIGHTS and len(rows) != keys):
-        raise ValueError(f"{here} has {len(times):,} times and {len(rows):,} values")
+        raise ContentError(f"{here} has {len(times):,} times and {len(rows):,} values")
     if not (np.isfinite(times).all() and (np.diff(times) > 0).all()):
-        raise ValueError(f"{here}.input must be times that grow")
+        raise ContentError(f"{here}.input must be times that grow")
     if not np.isfinite(rows).all():
-        raise ValueError(f"{here}.output has a value that is not finite")
+        raise ContentError(f"{here}.output has a value that is not finite")
     values = rows.reshape(len(times), *((_TRIPLE, -1) if way == _CUBIC else (-1,)))
     return Channel(node, path, times, values, _WAYS[way])

@@ -4,7 +4,11 @@ from collections.abc import Sequence
 from functools import cached_property
 from typing import Any
 
+import numpy as np
+
+from glrt.core.errors import ContentError
 from glrt.scene.model_files.gltf.accessors import Floats, Ints, floats, indices
+from glrt.scene.model_files.gltf.coordinates import name_of, sets_of
 from glrt.scene.model_files.gltf.document import Document, number
 from glrt.scene.model_files.gltf.draco import unpacked
 
@@ -35,7 +39,7 @@ class Attributes:
         """Positions of the vertices, (v, 3); ValueError without any."""
         found = self.rows("POSITION", (3,))
         if found is None:
-            raise ValueError(f"{self._here}.attributes has no POSITION")
+            raise ContentError(f"{self._here}.attributes has no POSITION")
         return found
 
     def rows(self, name: str, sizes: tuple[int, ...]) -> Floats | None:
@@ -44,7 +48,7 @@ class Attributes:
         if self._packed is not None and name in self._packed.rows:
             found = self._packed.rows[name].copy()
             if found.shape[1] not in sizes:
-                raise ValueError(f"{here} has {found.shape[1]} numbers each")
+                raise ContentError(f"{here} has {found.shape[1]} numbers each")
         elif name in self._named:
             found = floats(self._document, self._named[name], sizes, here)
         else:
@@ -55,13 +59,24 @@ class Attributes:
                 widths = tuple(range(2, found.shape[1] + 1))
                 added = floats(self._document, target[name], widths, where)
                 if len(added) != len(found):
-                    raise ValueError(f"{where} has {len(added):,} rows, and {here} {len(found):,}")
+                    raise ContentError(
+                        f"{where} has {len(added):,} rows, and {here} {len(found):,}"
+                    )
                 found[:, : added.shape[1]] += weight * added
         if name != "POSITION" and len(found) != len(self.points):
-            raise ValueError(
+            raise ContentError(
                 f"{self._here} has {len(self.points):,} places and {len(found):,} of {name}"
             )
         return found
+
+    @property
+    def coordinates(self) -> Floats | None:
+        """Both sets of texture coordinates, (v, 4), 0 where one lacks; None without any."""
+        found = [self.rows(name_of(it), (2,)) for it in sets_of(self._document).kept]
+        if all(rows is None for rows in found):
+            return None
+        empty = np.zeros((len(self.points), 2))
+        return np.concatenate([empty if rows is None else rows for rows in found], axis=1)
 
     def corners(self) -> Ints | None:
         """Return the numbers of vertices, (n,); None where they follow each other."""

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from glrt.core.errors import ContentError
 from glrt.core.text import nearest, quoted, unknown
 from glrt.scene.files.named_cameras import CameraView
 from glrt.scene.model_files.gltf.animations import Channel, channels_of, seconds_of, values_at
@@ -50,9 +51,9 @@ class FileCamera:
         and for transforms by which nothing can be seen.
         """
         if animation is not None and animation not in self.channels:
-            raise ValueError(unknown("animation", animation, list(self.channels), "The file has"))
+            raise ContentError(unknown("animation", animation, list(self.channels), "The file has"))
         if moment is not None and not self.channels:
-            raise ValueError("it has no animation: leave `time` out")
+            raise ContentError("it has no animation: leave `time` out")
         name = self.usual if animation is None else animation
         is_still = moment is None or name is None
         values = {} if is_still else values_at(self._moving(str(name)), float(moment or 0.0))
@@ -66,7 +67,7 @@ class FileCamera:
         """Return place, point looked at and upward direction of a matrix, (3,) each."""
         right_up_back = matrix[:3, :3]
         if abs(np.linalg.det(right_up_back)) == 0:
-            raise ValueError(f"{self.here} stands in a node whose transform is flat")
+            raise ContentError(f"{self.here} stands in a node whose transform is flat")
         place, up, back = matrix[:3, 3], right_up_back[:, 1], right_up_back[:, 2]
         return place, place - back / np.linalg.norm(back), up / np.linalg.norm(up)
 
@@ -96,23 +97,25 @@ class FileCameras:
         if node is None:
             if len(seeing) != 1:
                 has = f"it has {len(seeing)} cameras: choose one by `node`"
-                raise ValueError(f"{has if seeing else _NO_CAMERA}.{self._listed}")
+                raise ContentError(f"{has if seeing else _NO_CAMERA}.{self._listed}")
             node = seeing[0]
         if node in seeing:
             return self._read(self._chains[node])
         if node in self._chains:
-            raise ValueError(f"the camera of node {quoted(node)} has no perspective.{self._listed}")
+            raise ContentError(
+                f"the camera of node {quoted(node)} has no perspective.{self._listed}"
+            )
         same = [name for name, chain in self._chains.items() if _name(chain[-1][1]) == node]
         if same:
-            raise ValueError(
+            raise ContentError(
                 f"{len(same)} nodes with a camera are named {quoted(node)}: choose one by its "
                 f"number, node = {' or '.join(map(quoted, same))}.{self._listed}"
             )
         if node in self._nodes:
-            raise ValueError(f"node {quoted(node)} has no camera.{self._listed}")
+            raise ContentError(f"node {quoted(node)} has no camera.{self._listed}")
         near = nearest(node, tuple(seeing))
         meant = f"; did you mean {quoted(near)}?" if near else "."
-        raise ValueError(f"it shows no node {quoted(node)}{meant}{self._listed}")
+        raise ContentError(f"it shows no node {quoted(node)}{meant}{self._listed}")
 
     @cached_property
     def _seeing(self) -> list[str]:

@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from glrt.core.text import one_line
+from glrt.core.errors import ContentError
 from glrt.scene.meshes.triangle_meshes import MOST_TRIANGLES
 from glrt.scene.model_files.gltf.accessors import Floats, Ints
 from glrt.scene.model_files.gltf.document import Document
@@ -39,7 +39,7 @@ def unpacked(document: Document, primitive: dict[str, Any], here: str) -> Unpack
     rows = {}
     for name, number in document.table(own.get("attributes"), f"{here}.attributes").items():
         if type(number) is not int or number not in data:
-            raise ValueError(f"{here}.attributes.{name} names a part that there is not")
+            raise ContentError(f"{here}.attributes.{name} names a part that there is not")
         normalized = _is_normalized(document, primitive, name, here)
         rows[name] = _numbers(data[number], normalized)
     return Unpacked(rows, np.asarray(found.faces, np.int64).ravel())
@@ -55,13 +55,12 @@ def _decoded(content: bytes, here: str) -> Any:
         ) from None
     try:
         found = DracoPy.decode(content)
-    except Exception as error:  # its own types, and those of what it calls
-        told = one_line(str(error))[:100] or type(error).__name__
-        raise ValueError(f"{here} is damaged: {told}") from None
+    except Exception:  # its own types, and those of what it calls
+        raise ContentError(f"{here} is damaged: DracoPy cannot unpack it") from None
     if not hasattr(found, "faces"):
-        raise ValueError(f"{here} holds points alone")
+        raise ContentError(f"{here} holds points alone")
     if len(found.faces) > MOST_TRIANGLES:
-        raise ValueError(f"it has more than {MOST_TRIANGLES:,} triangles")
+        raise ContentError(f"it has more than {MOST_TRIANGLES:,} triangles")
     return found
 
 

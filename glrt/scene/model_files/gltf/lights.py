@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from glrt.core.errors import ContentError
 from glrt.scene.model_files.gltf.document import Document, number, numbers
 from glrt.scene.model_files.gltf.nodes import Placed, placed_nodes
 
@@ -26,7 +27,7 @@ def lights_of(document: Document, size: float) -> dict[str, Any]:
             continue
         index = own.get("light")
         if type(index) is not int or not 0 <= index < len(lights):
-            raise ValueError(f"nodes[{placed.number}] names a light that there is not")
+            raise ContentError(f"nodes[{placed.number}] names a light that there is not")
         here = f"lights[{index}]"
         _add(found, document.table(lights[index], here), placed, size, here)
     return found
@@ -39,9 +40,9 @@ def _add(
     intensity = number(light.get("intensity", 1), f"{here}.intensity", 0)
     back, kind = placed.matrix[:3, 2], light.get("type")
     if kind not in ("point", "spot", "directional"):
-        raise ValueError(f"{here}.type is none of point, spot and directional")
+        raise ContentError(f"{here}.type is none of point, spot and directional")
     if kind != "point" and not np.linalg.norm(back) > 0:
-        raise ValueError(f"{here} stands in a node whose transform is flat")
+        raise ContentError(f"{here} stands in a node whose transform is flat")
     if kind == "directional":
         watts = tuple(intensity / LUMENS * each for each in color)
         found["suns"].append({"direction": back / np.linalg.norm(back), "irradiance": watts})
@@ -54,7 +55,7 @@ def _add(
         "emission": tuple(radiance * each for each in color),
     }
     if kind == "spot":
-        own = light.get("spot", {})
+        own = Document.table(light.get("spot", {}), f"{here}.spot")
         inner, outer = own.get("innerConeAngle", 0), own.get("outerConeAngle", math.pi / 4)
         outer = math.degrees(number(outer, f"{here}.spot.outerConeAngle", 1e-3, math.pi / 2))
         inner = math.degrees(number(inner, f"{here}.spot.innerConeAngle", 0, math.pi / 2))

@@ -1,81 +1,18 @@
 """Convert materials of a glTF file to those of a scene."""
 
-import math
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from glrt.core.errors import ContentError
 from glrt.core.text import quoted
 from glrt.scene.meshes.triangle_meshes import NO_MATERIAL
 from glrt.scene.model_files.gltf.document import Document, number, numbers
-from glrt.scene.model_files.gltf.images import image_place
 from glrt.scene.model_files.gltf.primitives import material_names
+from glrt.scene.model_files.gltf.textures import TextureTables
 from glrt.scene.values import LARGEST
-
-_WRAPS = {33071: "clamp", 33648: "mirror", 10497: "repeat"}
-_NEAREST = 9728
-
-
-class TextureTables:
-    """The textures of a file as tables of a scene, `{ image, wrap, ... }`."""
-
-    def __init__(self, document: Document, path: str, folder: str) -> None:
-        """Take the path of the file in the scene, and its `folder` with '/' at the end."""
-        self._document, self._path, self._folder = document, path, folder
-        self.spares: dict[str, str] = {}  # shown for unreadable images
-
-    def table(self, given: Any, here: str) -> dict[str, Any] | None:
-        """Return the table for a material's reference to a texture; None if there is none."""
-        if given is None:
-            return None
-        document, info = self._document, self._document.table(given, here)
-        texture = document.item("textures", info.get("index"), f"{here}.index")
-        name = f"textures[{info['index']}]"
-        file = self._image(texture, name)
-        if file is None:
-            return None  # its format needs an extension
-        sampler = (
-            document.item("samplers", texture["sampler"], f"{name}.sampler")
-            if "sampler" in texture
-            else {}
-        )
-        found: dict[str, Any] = {"image": file, **self._placing(info, here)}
-        wraps = tuple(_WRAPS.get(sampler.get(key, 10497), "repeat") for key in ("wrapS", "wrapT"))
-        found["wrap"] = wraps
-        if sampler.get("magFilter") == _NEAREST:
-            found["filter"] = "nearest"
-        return found
-
-    def _image(self, texture: dict[str, Any], name: str) -> str | None:
-        """Return the path of the image of a texture: WebP where there is one."""
-        own = self._document.extension(texture, "EXT_texture_webp", name) or {}
-        files = list[str]()
-        for table in (own, texture):
-            if "source" in table:
-                place = image_place(self._document, table["source"], f"{name}.source")
-                inside = f"{self._path}#{place.number}"
-                files.append(inside if place.path is None else self._folder + place.path)
-        if len(files) > 1:
-            self.spares[files[0]] = files[1]
-        return files[0] if files else None
-
-    def _placing(self, info: dict[str, Any], here: str) -> dict[str, Any]:
-        found: dict[str, Any] = {}
-        own = self._document.extension(info, "KHR_texture_transform", here) or {}
-        for key in ("scale", "offset"):
-            if key in own:
-                found[key] = numbers(own[key], 2, f"{here}: {key}")
-        if "rotation" in own:
-            found["rotation"] = math.degrees(
-                number(own["rotation"], f"{here}: rotation", -1e4, 1e4)
-            )
-        uv = own.get("texCoord", info.get("texCoord", 0))
-        if uv not in (0, 1) or type(uv) is not int:
-            raise ValueError(f"{here}.texCoord must be 0 or 1, got {uv!r}"[:200])
-        return {**found, "uv": uv}
-
 
 _UNREAD = {  # textures that have no counterpart, by extension
     "KHR_materials_specular": ("specularTexture", "specularColorTexture"),
@@ -127,7 +64,8 @@ def looks_of(document: Document, path: str) -> dict[str, Look]:
 
 def _look(document: Document, textures: TextureTables, index: int) -> Look:
     here, given = f"materials[{index}]", document.items("materials")[index]
-    look = Look(dict(_PLAIN), spares=textures.spares)
+    textures.left_out = []
+    look = Look(dict(_PLAIN), unread=textures.left_out, spares=textures.spares)
     _metallic_roughness(document, textures, given, here, look)
     _surface(document, textures, given, here, look)
     is_unlit = document.extension(given, "KHR_materials_unlit", here) is not None
@@ -160,7 +98,7 @@ def _metallic_roughness(
     look.table["color"] = {**image, "factor": tuple(color)} if image else tuple(color)
     mode = given.get("alphaMode", "OPAQUE")
     if mode not in ("OPAQUE", "MASK", "BLEND"):
-        raise ValueError(f"{here}: alphaMode is none of OPAQUE, MASK and BLEND")
+        raise ContentError(f"{here}: alphaMode is none of OPAQUE, MASK and BLEND")
     if mode != "OPAQUE":
         look.table["alpha"] = {**image, "channel": "a", "factor": alpha} if image else alpha
     if mode == "MASK":

@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from glrt.core.errors import ContentError
 from glrt.scene.animation.rotations import matrix
 from glrt.scene.model_files.gltf.document import Document, numbers
 
@@ -20,28 +21,51 @@ class Placed(NamedTuple):
     matrix: Matrix  # from its coordinates to those of the file
 
 
-def placed_nodes(
-    document: Document, changes: Mapping[int, Mapping[str, Any]] = {}
-) -> Iterator[Placed]:
-    """Yield the nodes of the scene that the file shows, parents before children.
+def placed_nodes(document: Document, changes: Mapping[int, Mapping[str, Any]] = {}) -> list[Placed]:
+    """Return the nodes of the scene that the file shows, parents before children.
 
-    Without scenes, it yields all nodes. `changes` are other values of nodes by number. ValueError
+    Without scenes, these are all nodes. `changes` are other values of nodes by number. ValueError
     for a node below itself, or below two others.
     """
-    waiting = [(index, np.eye(4)) for index in reversed(_roots(document))]
+    if changes:
+        return _placed(document, changes)
+    return document.once("nodes", lambda: _placed(document, {}))
+
+
+def _placed(document: Document, changes: Mapping[int, Mapping[str, Any]]) -> list[Placed]:
+    found = list(_in_order(document))
+    nodes, places = list[dict[str, Any]](), np.empty((len(found), 4, 4))
+    for row, (index, node, _, _) in enumerate(found):
+        nodes.append(changed(node, changes[index]) if index in changes else node)
+        places[row] = matrix_of(nodes[row], f"nodes[{index}]")
+    above = np.array([row for _, _, row, _ in found], np.int64)
+    depth = np.array([steps for _, _, _, steps in found], np.int64)
+    order = np.argsort(depth, kind="stable")
+    for level in np.split(order, np.cumsum(np.bincount(depth))[:-1])[1:] if len(found) else ():
+        places[level] = places[above[level]] @ places[level]
+    wrong = ~np.isfinite(places).all(axis=(1, 2))
+    if wrong.any():
+        first = int(wrong.argmax())
+        checked_matrix(places[first], f"nodes[{found[first][0]}]")
+    numbers = (index for index, _, _, _ in found)
+    return [Placed(*each) for each in zip(nodes, numbers, places, strict=True)]
+
+
+def _in_order(document: Document) -> Iterator[tuple[int, dict[str, Any], int, int]]:
+    """Yield number and table of each node, the row of the node above it, and how many are above."""
+    waiting = [(index, 0, 0) for index in reversed(_roots(document))]
     seen = set[int]()
     while waiting:
-        index, around = waiting.pop()
-        node, here = document.item("nodes", index, "a scene or a node"), f"nodes[{index}]"
+        index, above, steps = waiting.pop()
+        node = document.item("nodes", index, "a scene or a node")
         if index in seen:
-            raise ValueError(f"{here} stands below itself, or in two places")
+            raise ContentError(f"nodes[{index}] stands below itself, or in two places")
+        row = len(seen)
         seen.add(index)
-        if index in changes:
-            node = changed(node, changes[index])
-        matrix = checked_matrix(around @ matrix_of(node, here), here)
-        yield Placed(node, index, matrix)
-        children = document.list(node.get("children", []), f"{here}.children")
-        waiting += [(child, matrix) for child in reversed(children)]
+        yield index, node, above, steps
+        if "children" in node:
+            children = document.list(node["children"], f"nodes[{index}].children")
+            waiting += [(child, row, steps + 1) for child in reversed(children)]
 
 
 def _roots(document: Document) -> list[Any]:
@@ -51,7 +75,7 @@ def _roots(document: Document) -> list[Any]:
             child
             for node in nodes
             if isinstance(node, dict)
-            for child in node.get("children", [])
+            for child in document.list(node.get("children", []), "children")
             if type(child) is int
         }
         return [index for index in range(len(nodes)) if index not in below]
@@ -67,7 +91,7 @@ def changed(node: Mapping[str, Any], values: Mapping[str, Any]) -> dict[str, Any
 def checked_matrix(matrix: Matrix, here: str) -> Matrix:
     """Return the matrix; ValueError if a number of it is not finite."""
     if not np.isfinite(matrix).all():
-        raise ValueError(f"{here}: its transforms lead beyond all numbers")
+        raise ContentError(f"{here}: its transforms lead beyond all numbers")
     return matrix
 
 
@@ -75,11 +99,17 @@ def matrix_of(node: Mapping[str, Any], here: str) -> Matrix:
     """Return the matrix of a node, (4, 4), to the coordinates of its parent."""
     if "matrix" in node:  # column by column
         return np.array(numbers(node["matrix"], 16, f"{here}.matrix")).reshape(4, 4).T
-    move = numbers(node.get("translation", [0, 0, 0]), 3, f"{here}.translation")
-    turn = numbers(node.get("rotation", [0, 0, 0, 1]), 4, f"{here}.rotation")
-    scale = numbers(node.get("scale", [1, 1, 1]), 3, f"{here}.scale")
-    if not any(turn):
-        raise ValueError(f"{here}.rotation must not be zero")
-    found = np.eye(4)
-    found[:3, :3], found[:3, 3] = matrix(turn) * np.array(scale), move
+    found = _STILL.copy()
+    if "translation" in node:
+        found[:3, 3] = numbers(node["translation"], 3, f"{here}.translation")
+    if "rotation" in node:
+        turn = numbers(node["rotation"], 4, f"{here}.rotation")
+        if not any(turn):
+            raise ContentError(f"{here}.rotation must not be zero")
+        found[:3, :3] = matrix(turn)
+    if "scale" in node:
+        found[:3, :3] *= numbers(node["scale"], 3, f"{here}.scale")
     return found
+
+
+_STILL = np.eye(4)

@@ -2,6 +2,7 @@
 
 from typing import Any, NamedTuple
 
+from glrt.core.errors import ContentError
 from glrt.scene.model_files.gltf.document import Document
 
 EXTENSION = "KHR_materials_variants"
@@ -36,7 +37,7 @@ def choices_of(document: Document, primitive: dict[str, Any], count: int, here: 
         mapping = document.table(given, where)
         for variant in document.list(mapping.get("variants"), f"{where}.variants"):
             if type(variant) is not int or not 0 <= variant < count:
-                raise ValueError(f"{where} names a variant that there is not")
+                raise ContentError(f"{where} names a variant that there is not")
             varied[variant] = _material(document, mapping, where)
     return Choices(usual, tuple(varied))
 
