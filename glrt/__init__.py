@@ -67,6 +67,7 @@ if TYPE_CHECKING:
     from glrt.scene.shapes.plane import Plane
     from glrt.scene.shapes.quad import Quad
     from glrt.scene.shapes.sphere import Sphere
+    from glrt.scene.transfer import Transfer
     from glrt.settings import Settings
 
 __all__ = [
@@ -104,6 +105,7 @@ __all__ = [
     "Sphere",
     "Sun",
     "Texture",
+    "Transfer",
     "UsageError",
     "__version__",
     "compare",
@@ -150,6 +152,7 @@ _HOMES = {
     "Sphere": "scene.shapes.sphere",
     "Sun": "scene.lights.sun",
     "Texture": "scene.materials.textures",
+    "Transfer": "scene.transfer",
     "UsageError": "core.errors",
     "compare": "comparison.verdict",
     "load": "image.sources",

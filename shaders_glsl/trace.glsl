@@ -51,6 +51,7 @@
 #include "integrators/roulette.glsl"
 #include "media/phase.glsl"
 #include "media/grid.glsl"
+#include "media/transfer.glsl"
 #include "media/flight.glsl"
 #include "media/equiangular.glsl"
 #include "integrators/aov_numbers.glsl"

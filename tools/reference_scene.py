@@ -21,6 +21,7 @@ from glrt.scene.medium import Medium
 from glrt.scene.probes import Probes
 from glrt.scene.scene import Scene
 from glrt.scene.shapes.kinds import KINDS
+from glrt.scene.transfer import Transfer
 from glrt.settings import RenderSettings, editable_of
 
 NOTES = {  # on a type of material or a kind of shape
@@ -64,6 +65,12 @@ SCENE_TABLES: list[tuple[str, str, type[BaseModel]]] = [
         'In TOML: `density = { file = "smoke.npy" }`. '
         "[Smoke](../how-to/media.md#smoke-from-a-grid).",
         Density,
+    ),
+    (
+        "transfer of a medium",
+        "In TOML: a table `[media.NAME.transfer]`. "
+        "[Scientific volumes](../how-to/media.md#scientific-volumes).",
+        Transfer,
     ),
     ("cone of a material", "In TOML: `cone = { axis = [0, -1, 0], outer = 30 }`.", Cone),
     *((f"[[objects]] of shape {name}", NOTES.get(name, ""), KINDS[name]) for name in KINDS),
@@ -143,7 +150,9 @@ def kind(part: dict[str, Any]) -> str:
         if not {"type", "anyOf", "enum"} & items.keys():
             return "list of tables"
         if "maxItems" in part:
-            return f"{part['maxItems']}{of}"
+            least, most = part.get("minItems"), part["maxItems"]
+            of = " vectors" if "prefixItems" in items else of
+            return f"{most}{of}" if least in (most, None) else f"{least} to {most}{of}"
         return "list of numbers" if "type" in items else "list of numbers or vectors"
     if part.get("type") == "object" or "$ref" in part or "allOf" in part:
         return "table"

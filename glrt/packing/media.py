@@ -10,25 +10,60 @@ from glrt.plan.facts import SceneFacts
 from glrt.plan.plan import layer_of_group
 from glrt.scene.grids import grid_of, placement_of
 from glrt.scene.lit_scene import media_group
+from glrt.scene.transfer import MOST_OPACITY, Transfer
+from glrt.scene.values import Radiance
+
+CLASSIFIED = 2.0  # in place of the anisotropy: shaders_glsl/media/transfer.glsl
 
 Array = np.ndarray[Any, Any]
 
 
 def medium_row(facts: SceneFacts, name: str | None) -> int:
-    """Return the row of a medium in the array of the struct Medium; NO_MEDIUM for vacuum."""
-    return facts.media.names.index(name) if name is not None else CONSTANTS["NO_MEDIUM"]
+    """Return the row of a medium in the array of the struct Medium; NO_MEDIUM for vacuum.
+
+    The rows of its knots follow that of a medium with a transfer function.
+    """
+    if name is None:
+        return CONSTANTS["NO_MEDIUM"]
+    before = facts.media.names[: facts.media.names.index(name)]
+    return sum(1 + knots_of(facts, other) for other in before)
+
+
+def knots_of(facts: SceneFacts, name: str) -> int:
+    """Return the number of knots of the transfer function of a medium; 0 if it has none."""
+    transfer = facts.scene.media[name].transfer
+    return len(transfer.values) if transfer else 0
+
+
+def pack_transfer(
+    row: Array, knots: Array, transfer: Transfer, colors: tuple[Radiance, ...]
+) -> None:
+    """Fill the row of a medium and those of its knots, as shaders_glsl/media/transfer.glsl reads.
+
+    `colors` are those of the knots, the intensity of the light group included.
+    """
+    row["anisotropy"] = CLASSIFIED
+    row["emission"] = 0
+    row["extinction"] = len(knots), transfer.length, 0
+    knots["scattering"] = colors
+    knots["emission"][:, 0] = transfer.values
+    knots["emission"][:, 1] = np.minimum(transfer.opacities, MOST_OPACITY)
 
 
 def pack_media(facts: SceneFacts) -> dict[str, Array]:
     """Return rows of the structs Medium and Boundary, by name; none in a scene without media."""
     layers, names = layer_of_group(facts), facts.media.names
     eye, first = np.array(facts.scene.camera.position, np.float64), 0
-    media = np.zeros(len(names), STRUCTS["Medium"])
-    for row, name in zip(media, names, strict=True):
-        medium = facts.scene.media[name]
+    media = np.zeros(sum(1 + knots_of(facts, name) for name in names), STRUCTS["Medium"])
+    for name in names:
+        medium, number = facts.scene.media[name], medium_row(facts, name)
+        row, colors = media[number], facts.scene.emissions_of_medium(name)
         row["scattering"], row["extinction"] = medium.scattering, medium.extinction
-        row["anisotropy"], row["emission"] = medium.anisotropy, facts.scene.emission_of_medium(name)
+        row["anisotropy"], row["emission"] = medium.anisotropy, colors[0]
         row["layer"] = layers.get(media_group(name), 0)
+        if medium.transfer:
+            knots = media[number + 1 : number + 1 + knots_of(facts, name)]
+            pack_transfer(row, knots, medium.transfer, colors)
         if name in facts.media.grids:
             place, grid = placement_of(facts.scene, name), grid_of(facts.scene, name)
             row["x"], row["y"], row["z"] = place.linear

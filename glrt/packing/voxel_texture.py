@@ -2,7 +2,7 @@
 
 A texel has four voxels, from (x, y) to (x + 1, y + 1), so that two texels hold the corners of the
 cell around a place. The edge of the grid is repeated beyond it. After the voxels of a grid follow
-the largest density in each of its bricks.
+the largest and the smallest density in each of its bricks.
 """
 
 from collections.abc import Sequence
@@ -38,12 +38,12 @@ def grids_of(facts: SceneFacts) -> list[GridFile]:
 
 def texture_of(gl: moderngl.Context, grids: Sequence[GridFile]) -> moderngl.Texture:
     """Return a texture of grids that were read, in lines of WIDTH texels."""
-    parts = [(grid.voxels, grid.tops) for grid in grids if grid.voxels is not None]
-    count = sum(voxels.size + tops.size for voxels, tops in parts)
+    parts = [(it.voxels, it.tops, it.bottoms) for it in grids if it.voxels is not None]
+    count = sum(voxels.size + tops.size for voxels, tops, _ in parts)
     lines = -(-count // WIDTH)
     texels = np.zeros((lines * WIDTH, 4), np.float16)
     first = 0
-    for voxels, tops in parts:
+    for voxels, tops, bottoms in parts:
         _, height, width = voxels.shape
         cells = texels[first : first + voxels.size].reshape(*voxels.shape, 4)
         right, below = np.arange(width), np.arange(height)
@@ -52,7 +52,8 @@ def texture_of(gl: moderngl.Context, grids: Sequence[GridFile]) -> moderngl.Text
         cells[..., 0], cells[..., 1] = voxels, voxels[..., right]
         cells[..., 2], cells[..., 3] = lower, lower[..., right]
         first += voxels.size
-        texels[first : first + tops.size, 0] = tops.ravel()
+        bricks = texels[first : first + tops.size]
+        bricks[:, 0], bricks[:, 1] = tops.ravel(), bottoms.ravel()
         first += tops.size
     texture = gl.texture((WIDTH, lines), 4, texels, dtype="f2")
     texture.filter = (moderngl.NEAREST, moderngl.NEAREST)

@@ -79,6 +79,11 @@ class Case:
         return self.has_media and bool(self.facts.media.grids)
 
     @property
+    def has_transfers(self) -> bool:
+        """Whether such a medium is a scientific volume, with a transfer function."""
+        return self.has_media and bool(self.facts.media.transfers)
+
+    @property
     def samples_along_segments(self) -> bool:
         """Whether light of few lamps is sampled along segments through media of even density."""
         media = self.facts.media

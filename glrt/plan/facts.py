@@ -115,7 +115,7 @@ class SceneFacts:
                 found.setdefault(finish.group, []).append(material.emission)
         for name, medium in self.scene.media.items():
             if medium.emits:
-                found[media_group(name)] = [medium.emission]
+                found[media_group(name)] = list(medium.emissions)
         if any(self.scene.sun_irradiance):
             found.setdefault(SUN_GROUP, []).append(self.scene.sun_irradiance)
         if any(map(any, self.scene.background.gradient)):

@@ -26,6 +26,11 @@ class MediaFacts:
         return [name for name in self.names if self.scene.media[name].density is not None]
 
     @cached_property
+    def transfers(self) -> list[str]:
+        """Names of the media with a transfer function."""
+        return [name for name in self.names if self.scene.media[name].transfer is not None]
+
+    @cached_property
     def bounds(self) -> tuple[Bounds, ...]:
         """The bounds of all volumes, in a scene that uses media."""
         shown = set(self.scene.shown)

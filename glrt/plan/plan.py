@@ -227,7 +227,7 @@ def _unlit(scene: Scene) -> Scene:
     background = scene.background.model_copy(update={"color": None, "sky": sky, **given})
     sun = scene.sun.model_copy(update={"irradiance": ONE}) if scene.sun else None
     media = {
-        name: it.model_copy(update={"emission": ONE}) if it.emits else it
+        name: it.with_emissions((ONE,) * len(it.emissions)) if it.emits else it
         for name, it in scene.media.items()
     }
     update = {

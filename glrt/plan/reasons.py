@@ -67,6 +67,12 @@ def grids(case: Case) -> str:
     return f"density varies in {few(names)}" if names else "no medium has a grid"
 
 
+def transfers(case: Case) -> str:
+    """Return the media with a transfer function."""
+    names = case.facts.media.transfers
+    return f"colour by density in {few(names)}" if names else "no medium has a transfer function"
+
+
 def equiangular(case: Case) -> str:
     """Return the media and the lamps."""
     return f"{media(case)}, {lamps(case)}"

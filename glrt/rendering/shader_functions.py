@@ -122,6 +122,7 @@ def _choice(found: SceneFacts) -> dict[str, bool | int]:
         "HAS_HOLE": bool(found.passed),
         "HAS_MEDIA": bool(found.media.names),
         "HAS_GRID": bool(found.media.grids),
+        "HAS_TRANSFER": bool(found.media.transfers),
         "BOUNDARIES": len(found.media.bounds),
         "HAS_COAT": bool(found.coated),
         "HAS_ROUGH_GLASS": bool(found.rough_glasses),

@@ -13,6 +13,7 @@ Modules, each importing only what stands above it:
 - materials: materials, one file for each type
 - model_files: files of models: glTF, OBJ, PLY and STL
 - density: grids by which the density of a medium varies
+- transfer: transfer functions of scientific volumes
 - medium: media between surfaces
 - probes: grid of probes
 - schema: fields of a scene, and their checks

@@ -19,6 +19,7 @@ from glrt.settings import Settings
 SceneType = TypeVar("SceneType", bound=SceneFields)
 Keys = tuple[str, ...]
 
+_OF_PART = 3  # keys down to a value of a named part
 _WHOLE = int | None  # the type of a value that is rounded between keys
 _BY_NAME = {"materials": "material", "media": "medium"}  # tables of named parts; what each is
 
@@ -107,14 +108,30 @@ def _parts(now: Any, keys: Keys) -> dict[Any, Any]:
     else:
         parts = {table: now}
     for part in parts.values():
-        if keys[-1] not in type(part).model_fields:
+        inner = getattr(part, keys[2]) if _is_inner(keys) else part
+        if inner is None:
+            raise SceneError(f"{_BY_NAME[table]} {quoted(name)} has no {keys[2]}")
+        if keys[-1] not in type(inner).model_fields:
             owner = f"Keys of {'.'.join(keys[:-1])}"
-            raise SceneError(unknown("key", keys[-1], type(part).model_fields, owner))
+            raise SceneError(unknown("key", keys[-1], type(inner).model_fields, owner))
     return parts
+
+
+def _is_inner(keys: Keys) -> bool:
+    """Return whether a value lies in a table of a part, as media.NAME.density.scale does."""
+    return len(keys) > _OF_PART
 
 
 def _part(part: BaseModel, keys: Keys, value: Any, source: str) -> BaseModel:
     """Return a part of a scene with another value of the last of some keys."""
+    if _is_inner(keys):
+        inner = _valued(getattr(part, keys[2]), keys, value, source)
+        return part.model_copy(update={keys[2]: inner})
+    return _valued(part, keys, value, source)
+
+
+def _valued(part: BaseModel, keys: Keys, value: Any, source: str) -> BaseModel:
+    """Return a part, or a table in it, with another value of the last key."""
     where = f"{source}: {'.'.join(keys[:-1])}" if source else ""
     fields = {name: item for name, item in part if item is not None}
     if type(part).model_fields[keys[-1]].annotation == _WHOLE and isinstance(value, float):

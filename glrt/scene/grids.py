@@ -44,23 +44,30 @@ class Grid(NamedTuple):
 
     voxels: Voxels  # densities over `top`, (z, y, x)
     tops: Voxels  # the largest ones of each brick
+    bottoms: Voxels  # the smallest ones of each brick
     top: float  # the largest density
 
 
 def grid_of(scene: SceneFields, name: str) -> Grid:
     """Return the grid of a medium; ValueError before it is read."""
     density = scene.media[name].density
-    if density is None or density.file.voxels is None:
+    file = density.file if density else None
+    if density is None or file is None or file.voxels is None:
         raise ValueError(f"the grid of medium {name} was not read")
-    return Grid(density.file.voxels, density.file.tops, density.scale * density.file.most)
+    return Grid(file.voxels, file.tops, file.bottoms, density.scale * file.most)
 
 
 def steps_across(scene: SceneFields, name: str) -> int:
     """Return about how many steps a ray takes along the diagonal of a grid: bricks, collisions."""
     grid, place = grid_of(scene, name), placement_of(scene, name)
     diagonal = float(np.linalg.norm(np.linalg.inv(place.linear) @ grid.voxels.shape[::-1]))
-    depth = max(scene.media[name].extinction) * grid.top * diagonal
-    return sum(grid.tops.shape) + math.ceil(depth * float(grid.tops.mean(dtype=np.float64)))
+    tops = grid.top * grid.tops.astype(np.float64)
+    if transfer := scene.media[name].transfer:
+        bottoms = grid.top * grid.bottoms.astype(np.float64)
+        depth = diagonal * float(transfer.extinction(bottoms, tops).mean())
+        return (sum(tops.shape) + math.ceil(depth)) * 2 * (len(transfer.values) + 1)
+    depth = max(scene.media[name].extinction) * diagonal * float(tops.mean())
+    return sum(tops.shape) + math.ceil(depth)
 
 
 def grid_problems(scene: SceneFields) -> Iterator[str]:

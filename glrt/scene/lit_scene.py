@@ -122,9 +122,10 @@ class LitScene(SceneFields):
         used = {self.medium, *(thing.medium for thing in self.visible)}
         return [name for name in self.media if name in used]
 
-    def emission_of_medium(self, name: str) -> Radiance:
-        """Return the radiance of a medium per unit of length, its group's intensity included."""
-        return _scaled(self.media[name].emission, self._intensity(media_group(name)))
+    def emissions_of_medium(self, name: str) -> tuple[Radiance, ...]:
+        """Return `Medium.emissions` of a medium, its group's intensity included."""
+        intensity = self._intensity(media_group(name))
+        return tuple(_scaled(color, intensity) for color in self.media[name].emissions)
 
     def emission_of(self, thing: Object) -> Radiance:
         """Return the radiance of an object, intensity of its light group included."""

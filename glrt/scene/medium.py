@@ -1,10 +1,12 @@
 """Media that fill the space between surfaces: fog, milk, smoke, glowing gas."""
 
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Self
 
-from pydantic import Field
+import numpy as np
+from pydantic import Field, model_validator
 
 from glrt.scene.density import Density
+from glrt.scene.transfer import Transfer
 from glrt.scene.values import BLACK, Number, Radiance, Triple, Value
 from glrt.settings import Cost, Editable
 
@@ -39,6 +41,11 @@ class Medium(Value):
         description="a grid by which scattering, absorption and emission are multiplied; default: "
         "1 everywhere",
     )
+    transfer: Annotated[Transfer | None, Editable(Cost.RECOMPILE)] = Field(
+        None,
+        description="colour and opacity by density, for a scientific volume, in place of "
+        "scattering, absorption and emission",
+    )
 
     if TYPE_CHECKING:
 
@@ -50,7 +57,20 @@ class Medium(Value):
             anisotropy: Number = 0.0,
             emission: Triple = BLACK,
             density: Density | None = None,
+            transfer: Transfer | None = None,
         ) -> None: ...
+
+    @model_validator(mode="after")
+    def _is_of_one_kind(self) -> Self:
+        own = ("scattering", "absorption", "anisotropy", "emission")
+        given = [name for name in own if np.any(getattr(self, name))]
+        if self.transfer and given:
+            raise ValueError(
+                f"transfer takes the place of {' and '.join(given)}; leave one of them out"
+            )
+        if self.transfer and self.density is None:
+            raise ValueError("transfer needs density, the grid whose values it shows")
+        return self
 
     @property
     def extinction(self) -> Coefficients:
@@ -60,5 +80,17 @@ class Medium(Value):
 
     @property
     def emits(self) -> bool:
-        """Whether it emits light."""
-        return any(self.emission)
+        """Whether it emits light; a transfer function may, whatever its colours."""
+        return self.transfer is not None or any(self.emission)
+
+    @property
+    def emissions(self) -> tuple[Radiance, ...]:
+        """Its emission, or the colours of its transfer function."""
+        return self.transfer.colors if self.transfer else (self.emission,)
+
+    def with_emissions(self, emissions: tuple[Radiance, ...]) -> "Medium":
+        """Return the medium with other `emissions`, as many."""
+        if self.transfer:
+            transfer = self.transfer.model_copy(update={"colors": emissions})
+            return self.model_copy(update={"transfer": transfer})
+        return self.model_copy(update={"emission": emissions[0]})

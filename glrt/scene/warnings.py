@@ -172,7 +172,7 @@ def _walled_in(scene: Scene) -> str:
 def is_dark(scene: Scene) -> bool:
     """Return whether nothing emits, so that the picture is certain to be black."""
     emits = any(any(scene.emission(finish)) for finish in scene.finishes)
-    glows = any(any(scene.emission_of_medium(name)) for name in scene.media_in_use)
+    glows = any(any(map(any, scene.emissions_of_medium(name))) for name in scene.media_in_use)
     return not (emits or glows or any(map(any, (scene.sun_radiance, *scene.background_colors))))
 
 

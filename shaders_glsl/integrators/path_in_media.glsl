@@ -97,10 +97,22 @@ bool collides_in_grid(inout Path path, Medium medium, float distance) {
     return false;
 }
 
+// Flies over a segment of this length through a scientific volume.
+void cross_volume(inout Path path, float distance) {
+    GridShare found = cross_classified(path.flight.medium, path.ray, distance);
+    vec3 light = path.scale * path.throughput * weight_of_flight(path.flight) * found.glow;
+    gather(path, light, medium_at(path.flight.medium).layer, path.depth);
+    path.throughput *= found.share;
+}
+
 // Flies over a segment of this length. True if the path collides there: then its ray starts at the collision. A
 // medium that only absorbs takes its share without chance.
 bool collides(inout Path path, float distance) {
     if (path.flight.medium == NO_MEDIUM) return false;
+    if (HAS_TRANSFER && is_classified(path.flight.medium)) {
+        cross_volume(path, distance);
+        return false;
+    }
     Medium medium = medium_at(path.flight.medium);
     if (HAS_GRID && has_grid(medium)) return collides_in_grid(path, medium, distance);
     gather_glow(path, medium, distance);

@@ -90,7 +90,9 @@ vec3 light_left(Ray ray, float distance, int lamp, int medium) {
     for (; passed <= MOST_HOLES; passed += 1u) {
         Hit hit = find_hit(ray, limit, is_shared ? NO_SHAPE : lamp, false);
         bool arrives = hit.shape == (is_shared ? lamp : NO_SHAPE);
-        if (HAS_GRID && medium != NO_MEDIUM && has_grid(medium_at(medium))) {
+        if (HAS_TRANSFER && is_classified(medium)) {
+            left *= cross_classified(medium, ray, hit.distance).share;
+        } else if (HAS_GRID && medium != NO_MEDIUM && has_grid(medium_at(medium))) {
             left *= cross_grid(medium_at(medium), ray, hit.distance).share;
         } else if (medium != NO_MEDIUM) {
             depth += hit.distance * medium_at(medium).extinction;

@@ -21,6 +21,7 @@ from glrt.plan.features import Needs, needs_of
 from glrt.scene import instancing
 from glrt.scene.density import Density
 from glrt.scene.medium import Medium
+from glrt.scene.transfer import Transfer
 from glrt.settings import settings_for
 from tests.support.builders import (
     EVERYTHING,
@@ -175,7 +176,11 @@ def needs_with(flags: set[str]) -> Needs:
     )
     if "HAS_MEDIA" in flags:  # without the checks: glass with a priority does not go with media
         grid = Density(ONE_VOXEL, min=(0, 0, 0), max=(1, 1, 1))
-        fog = Medium(density=grid if "HAS_GRID" in flags else None)
+        shown = Transfer(values=[0], colors=[[1] * 3], opacities=[0.5], length=1)
+        fog = Medium(
+            density=grid if "HAS_GRID" in flags else None,
+            transfer=shown if "HAS_TRANSFER" in flags else None,
+        )
         scene = scene.model_copy(update={"media": {"fog": fog}, "medium": "fog"})
     samples = bool(flags & {"SAMPLE_LIGHTS", "SAMPLE_SUN"})
     method = "mis" if "WEIGHT_BOTH" in flags else "nee" if samples else "naive"

@@ -21,6 +21,17 @@ def _of_glass(name: str, keys: str, *says: str) -> BadScene:
     return found._replace(content=str(found.content).replace("ior = 1.5", f"ior = 1.5\n{keys}"))
 
 
+def _scan(
+    name: str, changes: dict[str, str], *says: str, more: str = "", grid: str = 'file = "a.npy"'
+) -> BadScene:
+    """The same with a grid and a transfer function of two knots, with other keys."""
+    keys = {"values": "[0, 1]", "colors": "[[0, 0, 0], [1, 1, 1]]", "opacities": "[0, 0.5]"}
+    given = {**keys, "length": "1", **changes}
+    inner = ", ".join(f"{key} = {value}" for key, value in given.items() if value)
+    density = f"density = {{ {grid} }}\n" if grid else ""
+    return _fog(name, f"{density}transfer = {{ {inner} }}\n{more}", "media.fog", *says)
+
+
 BAD_MEDIA = [
     _fog(
         "light that grows", "scattering = [1, -2, 1]", "media.fog.scattering[1] must be at least 0"
@@ -53,6 +64,31 @@ BAD_MEDIA = [
         'density = { file = "a.npy", scale = -1 }',
         "media.fog.density.scale must be at least 0",
     ),
+    _scan("a scan without a length", {"length": ""}, ".length is missing; add it"),
+    _scan("a knot of no light", {"opacities": "[0, 1]"}, ".opacities[1] must be less than 1"),
+    _scan("a knot below nothing", {"opacities": "[-1, 0]"}, ".opacities[0] must be at least 0"),
+    _scan("a knot without opacity", {"opacities": "[0]"}, "2 values, 2 colors and 1 opacities"),
+    _scan("knots out of order", {"values": "[2, 1]"}, "values must not fall"),
+    _scan("one knot as a number", {"values": "1"}, ".values must be a list, got 1"),
+    _scan("no knots", {"values": "[]"}, ".values must be a list of at least 1"),
+    _scan(
+        "33 knots",
+        {"values": f"{[*range(33)]}"},
+        ".values must be a list of at most 32, got one of 33",
+    ),
+    _scan("a knot of NaN", {"values": "[0, nan]"}, ".values[1]", "finite"),
+    _scan("a grey knot", {"colors": "[1, 1]"}, ".colors[0] must be a list of three numbers"),
+    _scan("a dark knot", {"colors": "[[0, 0, 0], [0, -1, 0]]"}, ".colors[1][1] must be at least 0"),
+    _scan("a scan of no length", {"length": "0"}, ".length must be greater than 0"),
+    _scan("a misspelt knot", {"colours": "[]"}, "'colors'?"),
+    _fog("a scan as a number", "transfer = 1", "media.fog.transfer must be a table"),
+    _scan(
+        "a scan that scatters",
+        {},
+        "takes the place of scattering and anisotropy",
+        more="scattering = [1, 1, 1]\nanisotropy = 0.5",
+    ),
+    _scan("a scan of nothing", {}, "transfer needs density", grid=""),
     bad(
         "a medium that is none", '"white"\n', '"none"\nmedium = "fog"\n', f"{_BALL}.medium", "'fog'"
     ),

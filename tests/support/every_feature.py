@@ -131,7 +131,7 @@ def pictured() -> Scene:
 
 
 def hazy() -> Scene:
-    """Two media within each other, one of them in glass, under a lamp, a sun and a sky."""
+    """Three media, one of them in glass, in another, under a lamp, a sun and a sky."""
     white, grey = {"type": "dielectric", "ior": 1.4}, {"type": "lambertian", "color": [0.5] * 3}
     fog = {"scattering": [0.4, 0.5, 0.7], "absorption": [0.1, 0.0, 0.2], "anisotropy": 0.4}
     milk: dict[str, Any] = {
@@ -140,16 +140,20 @@ def hazy() -> Scene:
         "anisotropy": -0.3,
     }
     milk["density"] = Density(np.linspace(0.5, 1, 12, dtype=np.float32).reshape(2, 3, 2))
+    shown = {"values": [0.2, 0.6, 1], "colors": [[1, 0, 0], [0, 0, 1], [1, 1, 1]]}
+    shown |= {"opacities": [0, 0.5, 0.1], "length": 0.3}
+    scan = {"density": milk["density"], "transfer": shown}
     return scene_of(
         [
             plane([0, -1, 0], [0, 1, 0], "grey"),
+            {**box([-1.5, -0.5, -5], [-0.7, 0.5, -4], "none"), "medium": "scan"},
             {**box([-2, -1.5, -6], [2, 1.5, -2], "none"), "medium": "fog"},
             {**sphere([0.4, 0, -4], 0.6, "glass"), "medium": "milk"},
             quad([-0.5, 1, -4], [1, 0, 0], [0, 0, 1], "lamp"),
         ],
         {"glass": white, "grey": grey, "lamp": lamp(5.0)},
         {"fov": 50},
-        media={"fog": fog, "milk": milk},
+        media={"fog": fog, "scan": scan, "milk": milk},
         sun=SUN,
         background={"bottom": [0.1, 0.1, 0.1], "top": [0.2, 0.3, 0.5]},
     )

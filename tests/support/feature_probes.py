@@ -80,6 +80,11 @@ PROBES = {
         "float(material.kind) == {} * float(NONE)",
     ),
     "HAS_GRID": ("media/grid.glsl", "depth / (rate * top)", "{} * depth / (rate * top)"),
+    "HAS_TRANSFER": (
+        "media/transfer.glsl",
+        "opacity / (2.0 - opacity)",
+        "{} * opacity / (2.0 - opacity)",
+    ),
     "HAS_MEDIA": ("media/phase.glsl", "2.0 * u - 1.0", "2.0 * u - {}"),
     "HAS_LENS": ("integrators/camera.glsl", "camera.tan_lens * offset", "{} * offset"),
     "HAS_BACKGROUND": (
@@ -140,6 +145,7 @@ NEEDED_TOO = {
     "HAS_COVERAGE_MAP": {"HAS_MAP", "HAS_HOLE", "HAS_PRINCIPLED"},
     "HAS_TRANSMISSION_MAP": {"HAS_MAP", "HAS_TRANSMISSION", "HAS_PRINCIPLED", "HAS_DIELECTRIC"},
     "HAS_GRID": {"HAS_MEDIA"},
+    "HAS_TRANSFER": {"HAS_GRID", "HAS_MEDIA"},
     "SAMPLE_SUN": {"HAS_SUN"},
     "HAS_ROUGH_GLASS": {"HAS_DIELECTRIC"},
     "HAS_ATTENUATION": {"HAS_DIELECTRIC"},
@@ -181,7 +187,8 @@ GONE_TOO = {
     "QUADS_BY_AREA": {"WEIGHT_BOTH", "HAS_PARTICLES"},
     "SAMPLE_LIGHTS": {"HAS_SPHERE_LIGHT", "HAS_QUAD_LIGHT", "WEIGHT_BOTH", "MANY_LIGHTS"}
     | {"QUADS_BY_AREA", "HAS_DISK_LIGHT", "HAS_MESH_LIGHT", "SAMPLE_SUN", "HAS_PARTICLES"},
-    "HAS_MEDIA": {"HAS_GRID"},
+    "HAS_MEDIA": {"HAS_GRID", "HAS_TRANSFER"},
+    "HAS_GRID": {"HAS_TRANSFER"},
     "HAS_SUN": {"SAMPLE_SUN"},
 }
 GONE_TOO["SAMPLE_SUN"] = GONE_TOO["SAMPLE_LIGHTS"] - {"SAMPLE_SUN"} | {"SAMPLE_LIGHTS"}

@@ -15,6 +15,7 @@ from glrt.scene.values import LARGEST, Number, Triple, Value
 MOST_FRAMES = 1_000_000
 TABLES = ("camera", "background", "sun", "lights", "materials", "media", "objects", "render")
 NAMED = ("materials", "media", "objects")  # tables whose values have a name before their key
+INNER = ("density", "transfer")  # tables of a medium whose values change
 PHONG = ("render", "phong")  # the only table in [render] whose values change
 ROTATION = "rotate"  # the key that takes a quaternion, too
 _LONGEST = 500  # letters of a target
@@ -39,13 +40,14 @@ def parse_target(text: str) -> tuple[str, ...]:
         keys.append(key)
     if node != 0 or "\n" in text:
         raise ValueError(f"{quoted(text)} is not the name of a value, such as {_EXAMPLE}")
-    wanted = 3 if keys[0] in (*NAMED, PHONG[0]) else 2
+    is_inner = keys[0] == "media" and keys[2:3] in ([name] for name in INNER)
+    wanted = 4 if is_inner else 3 if keys[0] in (*NAMED, PHONG[0]) else 2
     is_other = keys[0] == PHONG[0] and tuple(keys[:2]) != PHONG
     if keys[0] not in TABLES or len(keys) != wanted or is_other:
         raise ValueError(
             f"{quoted(text)} names no value that can change: it must be one of camera.KEY, "
             "background.KEY, sun.KEY, lights.GROUP, materials.NAME.KEY, media.NAME.KEY, "
-            "objects.NAME.KEY and render.phong.KEY"
+            "media.NAME.density.KEY, objects.NAME.KEY and render.phong.KEY"
         )
     return tuple(keys)
 
@@ -75,8 +77,8 @@ class Track(Value):
 
     target: str = Field(
         description="the value: camera.KEY, background.KEY, sun.KEY, lights.GROUP, "
-        "materials.NAME.KEY, media.NAME.KEY, objects.NAME.KEY or render.phong.KEY; a name with "
-        'spaces or dots stands in "quotes"'
+        "materials.NAME.KEY, media.NAME.KEY, media.NAME.density.KEY, objects.NAME.KEY or "
+        'render.phong.KEY; a name with spaces or dots stands in "quotes"'
     )
     times: tuple[Moment, ...] = Field(
         min_length=1, description="times of the keys in seconds, each after the one before"

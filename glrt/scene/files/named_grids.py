@@ -1,6 +1,7 @@
 """Grids that a scene names: the path of a file, its SHA-256, and its voxels once it is read."""
 
 import hashlib
+from collections.abc import Callable
 from io import BytesIO
 from pathlib import Path
 from typing import Annotated, Any
@@ -29,6 +30,7 @@ class GridFile(NamedFile):
 
     _voxels: Voxels | None = PrivateAttr(None)
     _tops: Voxels = PrivateAttr(np.zeros((0, 0, 0), np.float16))
+    _bottoms: Voxels = PrivateAttr(np.zeros((0, 0, 0), np.float16))
     _most: float = PrivateAttr(0.0)
 
     @property
@@ -40,6 +42,11 @@ class GridFile(NamedFile):
     def tops(self) -> Voxels:
         """The largest density over `most` that each brick of BRICK^3 voxels can have, (z, y, x)."""
         return self._tops
+
+    @property
+    def bottoms(self) -> Voxels:
+        """The smallest one, likewise."""
+        return self._bottoms
 
     @property
     def most(self) -> float:
@@ -57,12 +64,13 @@ class GridFile(NamedFile):
         found._most = float(values.max())
         scaled = values.astype(np.float32) / np.float32(found._most or 1.0)
         found._voxels, found._origin = scaled.astype(np.float16), origin
-        found._tops = _tops(found._voxels)
+        found._tops = _of_bricks(found._voxels, np.max)
+        found._bottoms = _of_bricks(found._voxels, np.min)
         return found
 
 
-def _tops(voxels: Voxels) -> Voxels:
-    """Return the largest densities of bricks.
+def _of_bricks(voxels: Voxels, choose: Callable[..., Any]) -> Voxels:
+    """Return the largest or the smallest densities of bricks.
 
     A density between voxels depends on the voxels around it, so that of a brick depends on a voxel
     more on each side.
@@ -71,7 +79,7 @@ def _tops(voxels: Voxels) -> Voxels:
     for axis in range(_DIMENSIONS):
         size = found.shape[axis]
         parts = [
-            found.take(range(max(first - 1, 0), min(first + BRICK + 1, size)), axis).max(axis)
+            choose(found.take(range(max(first - 1, 0), min(first + BRICK + 1, size)), axis), axis)
             for first in range(0, size, BRICK)
         ]
         found = np.stack(parts, axis)

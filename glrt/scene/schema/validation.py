@@ -12,45 +12,16 @@ from pydantic_core import ErrorDetails
 
 from glrt.core.errors import SceneError
 from glrt.core.text import nearest, number, shortened, unknown
-from glrt.phong import Phong
-from glrt.scene.animation.tracks import Animation, Track
-from glrt.scene.camera import Camera
-from glrt.scene.density import Density
-from glrt.scene.lights.background import Background
-from glrt.scene.lights.clear_sky import ClearSky
-from glrt.scene.lights.cone import Cone
-from glrt.scene.lights.sun import Sun
-from glrt.scene.materials.kinds import TYPES
-from glrt.scene.materials.textures import NormalTexture, Texture
-from glrt.scene.medium import Medium
-from glrt.scene.probes import Probes
 from glrt.scene.schema.fields import SceneFields
+from glrt.scene.schema.models import KINDS_OF, TABLES, is_of_any_length, model_of
 from glrt.scene.schema.phrases import COUNTED, HEADINGS, PLAIN
-from glrt.scene.shapes.kinds import KINDS
 from glrt.scene.values import SMALLEST, plain
-from glrt.settings import RenderSettings
 
 MOST_PROBLEMS_NAMED = 3
 MOST_MISTAKES = 1 << 17  # that are listed: each takes a kilobyte
 
 Model = TypeVar("Model", bound=BaseModel)
 Place = tuple[int | str, ...]
-
-_TABLES: dict[str, type[BaseModel]] = {
-    "camera": Camera,
-    "render": RenderSettings,
-    "render.phong": Phong,
-    "background": Background,
-    "background.sky": ClearSky,
-    "sun": Sun,
-    "probes": Probes,
-    "animation": Animation,
-    "media": Medium,
-}
-_Nested = tuple[int, str, type[BaseModel]]  # of a table in a table: how deep, its key, its model
-_NESTED: dict[str, _Nested] = {"media": (2, "density", Density), "materials": (3, "cone", Cone)}
-_TRACK = 3  # keys down to a track: a longer location is of a key of it
-_KINDS: dict[str, dict[str, Any]] = {"materials": TYPES, "objects": KINDS}
 
 
 class MisfitError(ValueError):
@@ -113,13 +84,21 @@ def _problems(error: ValidationError) -> list[tuple[Place, ErrorDetails | str]]:
 def _without_consequences(
     found: dict[Place, ErrorDetails | str],
 ) -> list[tuple[Place, ErrorDetails | str]]:
-    """Drop keys that are missing only since they are misspelt: a misspelt key is one problem."""
+    """Drop keys that are missing only since they are misspelt: a misspelt key is one problem.
+
+    A list without a valid item is too short, and its items are the problem.
+    """
     meant = {
         (*place[:-1], nearest(str(place[-1]), _keys(detail)))
         for place, detail in found.items()
         if _is_extra(detail)
     }
-    return [(place, detail) for place, detail in found.items() if place not in meant]
+    lists = {place[:depth] for place in found for depth in range(len(place))}
+    return [
+        (place, detail)
+        for place, detail in found.items()
+        if place not in meant and not (place in lists and _is_short(detail))
+    ]
 
 
 def _place(detail: ErrorDetails) -> Place:
@@ -145,31 +124,16 @@ def _is_short_vector(detail: ErrorDetails) -> bool:
     return detail["type"] == "missing" and isinstance(detail["loc"][-1], int)
 
 
+def _is_short(detail: ErrorDetails | str) -> bool:
+    return not isinstance(detail, str) and detail["type"] == "too_short"
+
+
 def _is_extra(detail: ErrorDetails | str) -> TypeGuard[ErrorDetails]:
     return not isinstance(detail, str) and detail["type"] == "extra_forbidden"
 
 
-def _model(location: Place) -> type[BaseModel]:
-    """Return the model that a key belongs to, by the location that pydantic gives it."""
-    table = str(location[0])
-    if len(location) == 1:
-        return SceneFields
-    if location[:2] == ("animation", "tracks") and len(location) > _TRACK:
-        return Track
-    depth, key, inner = _NESTED.get(table, (0, "", SceneFields))
-    if key and location[depth:-1] == (key,):
-        return inner
-    if table not in _KINDS:
-        inner_table = ".".join(map(str, location[:2]))
-        return _TABLES.get(inner_table if len(location) > 2 else table, _TABLES[table])
-    if len(location) > 4 and str(location[3]).endswith(("_map", "normal")):
-        return NormalTexture if location[3] == "normal" else Texture
-    model: type[BaseModel] = _KINDS[table][str(location[2])]
-    return model
-
-
 def _keys(detail: ErrorDetails) -> tuple[str, ...]:
-    return tuple(key for key in _model(detail["loc"]).model_fields if not key.endswith("_map"))
+    return tuple(key for key in model_of(detail["loc"]).model_fields if not key.endswith("_map"))
 
 
 def _path(place: Place, data: Mapping[str, Any]) -> str:
@@ -206,15 +170,30 @@ def _own_words(_place: Place, detail: ErrorDetails) -> str:
 def _missing(place: Place, detail: ErrorDetails) -> str:
     if _is_short_vector(detail):
         return f"{PLAIN['tuple_type']}, got {_shown(detail['input'])}"
-    description = _model(detail["loc"]).model_fields[str(place[-1])].description
+    description = model_of(detail["loc"]).model_fields[str(place[-1])].description
     return f"is missing; add it: {description}"
 
 
 def _missing_kind(place: Place, _detail: ErrorDetails) -> str:
-    return f"is missing; it must be one of: {', '.join(_KINDS[str(place[0])])}"
+    return f"is missing; it must be one of: {', '.join(KINDS_OF[str(place[0])])}"
+
+
+def _no_list(place: Place, detail: ErrorDetails) -> str:
+    if place in HEADINGS or not is_of_any_length(detail["loc"]):
+        return _plain(place, detail)
+    return f"must be a list, got {_shown(detail['input'])}"
+
+
+def _too_short(place: Place, detail: ErrorDetails) -> str:
+    if not is_of_any_length(detail["loc"]):
+        return _plain(place, detail)
+    return f"must be a list of at least {detail['ctx']['min_length']}, got an empty one"
 
 
 def _too_long(place: Place, detail: ErrorDetails) -> str:
+    if is_of_any_length(detail["loc"]) and place not in COUNTED:
+        most, count = detail["ctx"]["max_length"], len(detail["input"])
+        return f"must be a list of at most {most}, got one of {count}"
     if place not in COUNTED:
         return f"{PLAIN['tuple_type']}, got {_shown(detail['input'])}"
     most = f"{detail['ctx']['max_length']:,} {COUNTED[place]}"
@@ -228,9 +207,9 @@ def _too_small(place: Place, detail: ErrorDetails) -> str:
 
 
 def _unknown_key(_place: Place, detail: ErrorDetails) -> str:
-    model, key = _model(detail["loc"]), str(detail["loc"][-1])
+    model, key = model_of(detail["loc"]), str(detail["loc"][-1])
     kind = "scene" if model is SceneFields else model.__name__.lower()
-    owner = next((f"[{name}]" for name, it in _TABLES.items() if it is model), f"a {kind}")
+    owner = next((f"[{name}]" for name, it in TABLES.items() if it is model), f"a {kind}")
     text = unknown("key", key, _keys(detail), f"Keys of {owner}")
     if model is not SceneFields and key in SceneFields.model_fields:
         text += f" The {key} of the scene itself must stand above the first [table]."
@@ -251,6 +230,8 @@ _WORDINGS: dict[str, Callable[[Place, ErrorDetails], str]] = {
     "value_error": _own_words,
     "missing": _missing,
     "union_tag_not_found": _missing_kind,
+    "tuple_type": _no_list,
+    "too_short": _too_short,
     "too_long": _too_long,
     "greater_than_equal": _too_small,
     "extra_forbidden": _unknown_key,

@@ -5,20 +5,45 @@ from functools import partial
 
 from imgui_bundle import imgui
 
+from glrt.scene.density import Density
 from glrt.scene.materials.dielectric import Dielectric
 from glrt.scene.materials.nothing import Nothing
 from glrt.scene.medium import Medium
 from glrt.scene.shapes.kinds import Shape
+from glrt.scene.transfer import MOST_OPACITY, Transfer
+from glrt.scene.values import LARGEST
 from glrt.settings import Cost
 from glrt.view.app import App
-from glrt.view.controls import choice, controls_of
-from glrt.view.edits.media_edits import with_fog, with_medium, with_medium_of
+from glrt.view.controls import Control, choice, controls_of, switch
+from glrt.view.edits.media_edits import (
+    knots_of,
+    with_fog,
+    with_knot,
+    with_medium,
+    with_medium_of,
+    with_medium_part,
+    with_transfer,
+)
 from glrt.view.widgets.cost_badges import tag
 from glrt.view.widgets.fields import button, edited, edited_fields, tip
 
 _VACUUM = "vacuum"
 MEDIUM = choice("medium inside", "what fills the object", Cost.RECOMPILE)
 VALUES = controls_of(Medium)
+SCALE = controls_of(Density, ("min", "max"))
+LENGTH = controls_of(Transfer)
+VALUE = Control("value", "number", "density of the knot, between its neighbours", Cost.RESTART)
+COLOR = Control("color", "color", "radiance of what is opaque", Cost.RESTART, low=0, high=LARGEST)
+OPACITY = Control(
+    "opacity",
+    "number",
+    "share of light that is lost over `length`",
+    Cost.RESTART,
+    low=0,
+    high=MOST_OPACITY,
+    slider=(0, 1),
+)
+COLORED = switch("colour by density", "show the grid by a transfer function", Cost.RECOMPILE)
 
 
 def draw_medium(app: App, index: int, shape: Shape) -> None:
@@ -48,6 +73,39 @@ def draw_medium(app: App, index: int, shape: Shape) -> None:
 def _values(app: App, name: str) -> None:
     imgui.separator_text(f"medium {name}")
     medium, opened = app.session.scene.media[name], app.session.opened.scene.media.get(name)
+    if medium.density:
+        _scale(app, name, medium.density)
+        is_colored = edited(COLORED, medium.transfer is not None, name)
+        if is_colored is not None:
+            app.edit_scene("", partial(with_transfer, name=name, is_on=is_colored))
+            return
+    if medium.transfer:
+        _knots(app, name, medium.transfer)
+        return
     changes = edited_fields(VALUES, dict(medium), f"medium {name}", opened)
     if changes:
         app.edit_scene(f"{name} {list(changes)}", partial(with_medium, name=name, **changes))
+
+
+def _scale(app: App, name: str, density: Density) -> None:
+    """Draw the factor of the densities of a grid."""
+    changes = edited_fields(SCALE, dict(density), f"density {name}")
+    if changes:
+        edit = partial(with_medium_part, name=name, key="density", changes=changes)
+        app.edit_scene(f"{name} {list(changes)}", edit)
+
+
+def _knots(app: App, name: str, transfer: Transfer) -> None:
+    """Draw the knots of a transfer function."""
+    changes = edited_fields(LENGTH, dict(transfer), f"transfer {name}")
+    if changes:
+        edit = partial(with_medium_part, name=name, key="transfer", changes=changes)
+        app.edit_scene(f"{name} {list(changes)}", edit)
+    ends = (-LARGEST, *transfer.values, LARGEST)
+    for number, knot in enumerate(knots_of(transfer)):
+        imgui.separator_text(f"knot {number + 1}")
+        value = replace(VALUE, low=ends[number], high=ends[number + 2])
+        new = edited_fields((value, COLOR, OPACITY), knot, f"{name} {number}")
+        if new:
+            edit = partial(with_knot, name=name, number=number, **new)
+            app.edit_scene(f"{name} {number} {list(new)}", edit)
