@@ -8,17 +8,18 @@ import numpy as np
 from imgui_bundle import hello_imgui, imgui
 
 from glrt.settings import Cost
-from glrt.view.controls import MEANING, Control
+from glrt.view.controls import MEANING, Control, Kind
 from glrt.view.state.explanations import explanation_of
 from glrt.view.widgets.cost_badges import tags
 from glrt.view.widgets.finder import FINDER
 from glrt.view.widgets.reset import by_gestures, gesture_texts
-from glrt.view.widgets.rows import LEAST, WORDS, Row
+from glrt.view.widgets.rows import LEAST, THREE, WORDS, Row
 from glrt.view.widgets.slider_text import Slider, share_of, text_next_to_grip
 from glrt.view.widgets.steady_widget import ANCHOR
 from glrt.view.widgets.tips import explain
 
 _MOST_DIGITS = 20  # of an integer: more are beyond any limit, and Python reads 4300 at most
+_LEAST: dict[Kind, float] = {"choice": WORDS, "vector": THREE, "color": THREE, "switch": 0.0}
 _MOST_ROWS = 14  # of a list without scrolling
 _TOLD = 8.0  # em: from the left edge of a list to the explanations of its words
 _NO_TOOLTIP = imgui.ColorEditFlags_.no_tooltip.value
@@ -34,10 +35,10 @@ def edited(control: Control, value: Any, name: str = "") -> Any:
     if FINDER.lists(label, control, value):
         return None
     corner, told = imgui.get_cursor_screen_pos(), _told(control)
-    row = Row(control.label, WORDS if control.kind == "choice" else LEAST)
+    row = Row(control.label, _LEAST.get(control.kind, LEAST))
     drawn = _by_label(control, imgui.get_id(label), value)
     explain(told)
-    below = row.draw(lambda: _draw(control, label, value), is_square=control.kind == "switch")
+    below = row.draw(lambda: _draw(control, label, value))
     below = by_gestures(below, control, 0, value, is_label=False)
     tip(told, imgui.get_id(label))
     tags(control.costs)
