@@ -12,7 +12,7 @@ from glrt.cli.main import main
 from glrt.comparison.verdict import compare
 from glrt.image.sources import load
 from glrt.scene.export.gltf import to_gltf
-from glrt.scene.export.triangles import AROUND, triangles_of
+from glrt.scene.export.triangles import AROUND, corners_around, triangles_of
 from glrt.scene.files.assets import AssetFolder
 from glrt.scene.loading.scene_files import with_files
 from glrt.scene.materials.principled import Principled
@@ -149,6 +149,15 @@ def test_solids_are_closed_and_face_outwards(name: str) -> None:
     corners = points[found.faces]
     across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     assert (np.einsum("nk,nck->nc", across, found.normals[found.faces]) > 0).all()
+
+
+@pytest.mark.parametrize(("count", "most"), [(1, 96), (108, 96), (480, 44), (65_536, 12)])
+def test_what_is_round_has_fewer_corners_where_there_is_much(count: int, most: int) -> None:
+    assert corners_around(count) == most
+    ball = scene_of([SHAPES["sphere"]], {"m": glass(1.5)}, CAMERA, background={"color": [1, 1, 1]})
+    found = triangles_of(ball.objects[0], 1.0, most)
+    assert found is not None
+    assert len(found.faces) == most * (most - 2)
 
 
 def test_coordinates_of_flat_and_round_shapes_are_those_of_textures() -> None:

@@ -11,7 +11,7 @@ from glrt.core.text import counted, quoted
 from glrt.core.version import VERSION
 from glrt.scene.export.gltf_file import GltfFile, Table
 from glrt.scene.export.gltf_materials import MaterialWriter
-from glrt.scene.export.triangles import AROUND, triangles_of
+from glrt.scene.export.triangles import corners_around, triangles_of
 from glrt.scene.lit_scene import SUN_GROUP
 from glrt.scene.materials.nothing import Nothing
 from glrt.scene.model_files.gltf.lights import LUMENS
@@ -45,6 +45,8 @@ class _Writer:
         self.file = GltfFile(f"glrt {VERSION}")
         self._scene, self._report = scene, report
         self._materials = MaterialWriter(self.file, scene, report)
+        count = sum(isinstance(item, Sphere | Disk | Cylinder) for item in scene.visible)
+        self._around = corners_around(count)
         self._nodes = list[int]()
         self._meshes = dict[object, int]()
 
@@ -114,14 +116,14 @@ class _Writer:
         self._node({"name": name, "mesh": self._meshes[key], "matrix": _columns(matrix)})
 
     def _shape(self, item: Any, name: str) -> None:
-        found = triangles_of(item, self._radius)
+        found = triangles_of(item, self._radius, self._around)
         if found is None:
             self._report(f"{quoted(name)}, a {item.shape}")
             return
         if isinstance(item, Plane):
             self._report(f"the far parts of {quoted(name)}, a plane, which is a square")
         elif isinstance(item, Sphere | Disk | Cylinder):
-            self._report(f"the roundness of a {item.shape}, which has {AROUND} corners")
+            self._report(f"the roundness of a {item.shape}, which has {self._around} corners")
         rows: dict[str, Any] = {"POSITION": found.points, "NORMAL": found.normals}
         if found.uv is not None:
             rows["TEXCOORD_0"] = found.uv

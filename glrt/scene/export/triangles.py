@@ -17,7 +17,9 @@ from glrt.scene.shapes.sphere import Sphere
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-AROUND = 96  # corners of what is round
+AROUND = 96  # corners of what is round, at most
+_FEWEST = 12
+_ROUND_IN_ALL = 1_000_000  # triangles of all that is round
 PLANE = 100.0  # half of the edge of the square that stands for a plane, over the scene's radius
 
 
@@ -30,10 +32,20 @@ class Triangles(NamedTuple):
     uv: Floats | None = None  # (v, 2), v downwards; None without
 
 
-def triangles_of(shape: Any, radius: float) -> Triangles | None:
+def corners_around(count: int) -> int:
+    """Return how many corners a round shape has, of `count` in a scene: an even number.
+
+    A sphere of n corners around has about n^2 triangles.
+    """
+    most = math.isqrt(_ROUND_IN_ALL // max(count, 1))
+    return max(_FEWEST, min(AROUND, most - most % 2))
+
+
+def triangles_of(shape: Any, radius: float, around: int = AROUND) -> Triangles | None:
     """Return the triangles of an analytic shape in scene units; None for a kind without any.
 
-    A plane becomes a square of PLANE times the radius of the scene, about its point.
+    A plane becomes a square of PLANE times the radius of the scene, about its point. Round shapes
+    have `around` corners.
     """
     if isinstance(shape, Quad):
         given = shape.corner, shape.edge_u, shape.edge_v
@@ -45,13 +57,13 @@ def triangles_of(shape: Any, radius: float) -> Triangles | None:
         return _box(shape)
     if isinstance(shape, Disk):
         axis = np.array(shape.normal, np.float64) / np.linalg.norm(shape.normal)
-        found = _fan(np.array(shape.center, np.float64), axis, shape.radius)
+        found = _fan(np.array(shape.center, np.float64), axis, shape.radius, around)
         axes = shape.texture_axes
         uv = (found.points - axes.origin) @ np.stack([axes.u, axes.v], axis=1)
         return found._replace(uv=uv)
     if isinstance(shape, Cylinder):
-        return _cylinder(shape)
-    return _sphere(shape) if isinstance(shape, Sphere) else None
+        return _cylinder(shape, around)
+    return _sphere(shape, around) if isinstance(shape, Sphere) else None
 
 
 def _square(corner: Floats, u: Floats, v: Floats, uv: Floats) -> Triangles:
@@ -90,40 +102,40 @@ def _polygon(corners: Floats, normal: Floats) -> Triangles:
     return Triangles(points, np.array(fan), np.tile(normal, (len(points), 1)))
 
 
-def _ring(axis: Floats) -> Floats:
-    """Return unit vectors around an axis, (AROUND, 3), counter-clockwise seen from its end."""
+def _ring(axis: Floats, around: int) -> Floats:
+    """Return unit vectors around an axis, (around, 3), counter-clockwise seen from its end."""
     other = UP if abs(axis[1]) < 0.9 else np.array([1.0, 0, 0])
     u = np.cross(other, axis)
     u /= np.linalg.norm(u)
-    angles = 2 * math.pi * np.arange(AROUND) / AROUND
+    angles = 2 * math.pi * np.arange(around) / around
     ring: Floats = np.cos(angles)[:, None] * u + np.sin(angles)[:, None] * np.cross(axis, u)
     return ring
 
 
-def _fan(center: Floats, axis: Floats, radius: float) -> Triangles:
-    return _polygon(center + radius * _ring(axis), axis)
+def _fan(center: Floats, axis: Floats, radius: float, around: int) -> Triangles:
+    return _polygon(center + radius * _ring(axis, around), axis)
 
 
-def _cylinder(shape: Cylinder) -> Triangles:
+def _cylinder(shape: Cylinder, around: int) -> Triangles:
     ends = np.array([shape.from_, shape.to], np.float64)
-    ring = _ring(shape.axis)
+    ring = _ring(shape.axis, around)
     points = np.concatenate([end + shape.radius * ring for end in ends])
-    low = np.arange(AROUND)
+    low = np.arange(around)
     side = np.roll(low, -1)
     faces = np.concatenate(
-        [np.stack([low, side, side + AROUND], 1), np.stack([low, side + AROUND, low + AROUND], 1)]
+        [np.stack([low, side, side + around], 1), np.stack([low, side + around, low + around], 1)]
     )
     wall = Triangles(points, faces, np.tile(ring, (2, 1)))
     if not shape.capped:
         return wall
-    rims = points.reshape(2, AROUND, 3)
+    rims = points.reshape(2, around, 3)
     caps = [_polygon(rim, sign * shape.axis) for rim, sign in zip(rims, (-1, 1), strict=True)]
     return _joined([wall, *caps])
 
 
-def _sphere(shape: Sphere) -> Triangles:
+def _sphere(shape: Sphere, corners: int) -> Triangles:
     """Return a sphere with u = atan2(x, -z) / 2 pi + 1/2 and v = acos(y) / pi."""
-    rows, columns = AROUND // 2, AROUND
+    rows, columns = corners // 2, corners
     v, u = np.meshgrid(np.arange(rows + 1), np.arange(columns + 1), indexing="ij")
     polar, around = math.pi * v / rows, 2 * math.pi * ((u % columns) / columns - 0.5)
     high, wide = np.cos(polar), np.sin(polar) * ((v > 0) & (v < rows))  # exactly 0 at the poles
