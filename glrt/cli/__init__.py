@@ -23,6 +23,7 @@ Modules, each importing only what stands above it:
 - stress: `glrt stress`
 - doctor: `glrt doctor`
 - importing: `glrt import`
+- export: `glrt export`
 - schema: `glrt schema`
 - commands: the table of commands
 - main: how the command starts and ends

@@ -35,5 +35,6 @@ Modules, each importing only what stands above it:
 - scenefile: scene files (TOML), read and written
 - glasses: glasses of a scene, and the glass around its camera
 - summary: contents of a scene in words
+- export: scenes as files of other programs
 - warnings: warnings about numbers and limits of the model
 """

@@ -177,3 +177,9 @@ def test_lines_of_both_kinds_may_follow_each_other(
 def test_a_file_too_short_for_its_lines_takes_no_memory() -> None:
     said = refusal(hdr("-Y 16384 +X 16384", bytes(40)))
     assert said.startswith("is damaged: it has 40 bytes for 16,384 lines")
+
+
+@pytest.mark.parametrize("blank", [b" ", b"\t", b"\r"])
+def test_a_blank_in_the_empty_line_ends_the_header_too(blank: bytes) -> None:
+    content = flat_hdr(np.full((2, 3, 4), 128, np.uint8)).replace(b"\n\n", b"\n" + blank + b"\n")
+    assert (decode_image(content, WHERE) == 0.5).all()

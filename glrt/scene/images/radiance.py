@@ -16,6 +16,7 @@ from glrt.scene.images.float_images import (
 )
 
 _DARKEST = 1e-30  # least exposure: its inverse is a float32 number too
+_HDR_END = re.compile(rb"\n[ \t\r]*\n")  # an empty line, in which some programs leave a blank
 _HDR_SIZE = re.compile(rb"([-+])([XY]) +(\d{1,9}) +([-+])([XY]) +(\d{1,9})\r?\n")
 
 
@@ -25,7 +26,8 @@ def decode_hdr(content: bytes, color: bool) -> Pixels:
     His manual is the other source. A pixel is (R, G, B) 2^(E - 136), and black for E = 0, as other
     renderers read it: what was 1 is 1. Ward's own programs add half a step to R, G and B.
     """
-    header, _, rest = content.partition(b"\n\n")
+    end = _HDR_END.search(content)
+    header, rest = (content[: end.start()], content[end.end() :]) if end else (content, b"")
     exposure = _hdr_exposure(header.decode("latin-1").split("\n"))
     size = _HDR_SIZE.match(rest)
     if not size or size[2] == size[5]:
