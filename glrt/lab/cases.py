@@ -79,6 +79,7 @@ _ALL = (
     Case("turn", "Gas that turns light by any angle", media.turn),
     Case("colors", "Fog of any colour", media.colors),
     Case("spike", "Gas with one voxel of any density", media.spike),
+    Case("layer", "A thin layer of a scientific volume", media.layer),
     Case("skim", "Fog that is met at any angle", media.skim),
     Case("albedo", "Walls that hardly absorb", sums.albedo),
     Case("seeds", "Pixels that share random numbers", sums.seeds),

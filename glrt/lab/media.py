@@ -18,7 +18,7 @@ ALBEDO = 0.5  # share of scattering in a medium
 BOUNCES = 60  # what is left beyond them is ALBEDO to that power
 EVEN = {"bottom": [1.0] * 3, "top": [1.0] * 3}
 EDGE = 16  # voxels of a grid along an edge
-_GRID = "media/grid.glsl"
+_GRID, _TRANSFER = "media/grid.glsl", "media/transfer.glsl"
 _FLIGHT, _PATH = "media/flight.glsl", "integrators/path_in_media.glsl"
 
 
@@ -64,6 +64,53 @@ def spike(lab: Lab) -> Sweep:
     text = {_GRID: read(_GRID).replace(bound, f"min(1.0 / grid.top, {bound})")}
     naive = {"bounds that leave the voxel out": Variant(texts=text)}
     return _even("density of a voxel over that of the others", x, lab, scenes, naive)
+
+
+def layer(lab: Lab) -> Sweep:
+    """Error of the light behind a layer that a transfer function makes thin, of depth 1."""
+    x = np.logspace(0, -2, 5)
+    inner = "opacity = max(opacity, knot.opacity)"
+    text = {_TRANSFER: read(_TRANSFER).replace(inner, "opacity = max(opacity, 0.0)")}
+    found: dict[str, list[float]] = {}
+    samples = lab.count(256, 64)
+    size: dict[str, Any] = {"width": SIDE, "height": SIDE, "bounces": 0}
+    for way, variant in {"glrt": PLAIN, "bounds without knots": Variant(texts=text)}.items():
+        pictures = [lab.render(_layered(float(it)), samples, variant, **size) for it in x]
+        figures = map(mean_of, pictures)
+        # All channels see the same collisions: a mean has the error of one.
+        found[way] = [abs(m - np.exp(-1)) / max(e * 3**0.5, 1e-7) for m, e in figures]
+    chosen, other = found.items()
+    return Sweep(
+        parameter="densities in the layer over all densities",
+        measure="difference from the truth, in standard errors",
+        x=x.tolist(),
+        chosen=chosen,
+        others=dict([other]),
+        promise=f"at most {SIGMAS} standard errors",
+        bound=[SIGMAS] * len(x),
+    )
+
+
+def _layered(width: float) -> Scene:
+    """Return a box whose density rises from 0 to 1 along the view, and takes light around 1/2.
+
+    Opacity is a tent of `width` with the peak o. The mean of -ln(1 - o) under it is
+    1 + (1 - o) ln(1 - o) / o. Half a voxel is even at both ends of the box, which is 2 deep.
+    """
+    peak, ends = 0.9, [0.5 - width / 2, 0.5, 0.5 + width / 2]
+    mean = 1 + (1 - peak) * np.log1p(-peak) / peak
+    deep = 2 * EDGE / (EDGE + 1) * width
+    transfer = {"values": ends, "colors": [[0.0] * 3] * 3, "opacities": [0.0, peak, 0.0]}
+    ramp = np.arange(EDGE + 1, dtype=np.float32)[:, None, None] / EDGE
+    scan = {"density": Density(ramp), "transfer": {**transfer, "length": deep * mean}}
+    body = {"shape": "box", "min": [-1, -1, -1], "max": [1, 1, 1], "material": "none"}
+    return scene_of(
+        [{**body, "medium": "scan"}],
+        {},
+        {"position": [0, 0, 5], "look_at": [0, 0, 0], "fov": 0.01},
+        media={"scan": scan},
+        background=EVEN,
+    )
 
 
 def _with_spike(ratio: float) -> Density:

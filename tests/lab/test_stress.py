@@ -35,6 +35,7 @@ VERDICTS = {
     "depth": 13,
     "turn": 7,
     "spike": 5,
+    "layer": 5,
     "seeds": 7,
     "dimensions": 1,
     "sparks": 6,
@@ -59,7 +60,7 @@ SWEEP = Sweep(
 
 
 @pytest.mark.slow_cases("leave", "stretch", "caustic", "sparks", "still", "albedo")
-@pytest.mark.slow_cases("depth", "turn", "spike", "colors", "skim")
+@pytest.mark.slow_cases("depth", "turn", "spike", "layer", "colors", "skim")
 @pytest.mark.slow_cases(*SLOW)
 @pytest.mark.parametrize("name", CASES)
 def test_every_case_holds_and_distinguishes_the_naive_method_from_the_chosen(

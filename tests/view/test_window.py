@@ -127,6 +127,7 @@ SLOW = (  # half a second each, or more
     "keys_walk_through_the_list_and_delete_from_it",
     "words_filter_the_list_also_if_the_panels_were_hidden",
     "a_frame_goes_through_the_rows_in_sight_alone",
+    "a_grid_is_shown_by_colours_whose_knots_are_changed",
 )
 
 

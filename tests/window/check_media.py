@@ -3,8 +3,10 @@
 import numpy as np
 from imgui_bundle import imgui
 
+from glrt.scene.density import Density
 from glrt.scene.shapes.sphere import Sphere
 from glrt.view.controls import replaced
+from glrt.view.edits.media_edits import with_medium
 from glrt.view.panels.media import VALUES
 from tests.window.gestures import add, press, retype
 from tests.window.hand import Hand, check
@@ -59,3 +61,40 @@ def fog_that_is_moved_across_other_fog_is_reported_and_comes_back_by_undo(hand: 
     press(hand, imgui.Key.z, imgui.Key.mod_ctrl.value)
     hand.settle()
     assert session.scene == before
+
+
+@check
+def a_grid_is_shown_by_colours_whose_knots_are_changed(hand: Hand) -> None:
+    session, ctx = hand.session, hand.ctx
+    add(hand, "sphere")
+    hand.settle()
+    ctx.set_ref("Controls")
+    ctx.item_click("fill with fog")
+    hand.settle()
+    grid = Density(np.linspace(0, 2, 64, dtype=np.float32).reshape(4, 4, 4))
+    hand.there(lambda: session.edit(with_medium(session.scene, "fog", density=grid)))
+    hand.settle()
+    ctx.item_input_value("scale##density fog", 0.5)
+    hand.settle()
+    density = session.scene.media["fog"].density
+    assert density
+    assert density.scale == 0.5
+    even = hand.pixels()
+    ctx.item_click("colour by density##fog")
+    hand.settle()
+    assert (hand.pixels() != even).mean() > 0.02
+    transfer = session.scene.media["fog"].transfer
+    assert transfer
+    assert (transfer.values, transfer.opacities) == ((0.0, 1.0), (0.0, 0.9))
+    ctx.item_input_value("opacity##fog 1", 0.25)
+    hand.settle()
+
+    ctx.scroll_to_item_y("opacity##fog 1")
+    ctx.yield_(4)
+    changed = session.scene.media["fog"].transfer
+    assert changed == transfer.model_copy(update={"opacities": (0.0, 0.25)})
+    assert not session.problem
+    ctx.item_click("colour by density##fog")
+    hand.settle()
+    assert session.scene.media["fog"].transfer is None
+    assert any(session.scene.media["fog"].scattering)
