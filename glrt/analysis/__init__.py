@@ -11,4 +11,5 @@ Modules, each importing only what stands above it:
 - chart: error against time for every method
 - motion: what is on the screen while something moves, and its error
 - method_choice: the cheapest method that reaches an error
+- simplification: a smaller scene with the same picture, up to an error
 """

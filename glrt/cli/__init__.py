@@ -17,6 +17,7 @@ Modules, each importing only what stands above it:
 - merge: `glrt merge`
 - compare: `glrt compare`
 - scenes: `glrt scenes`
+- simplify: `glrt inspect --simplify`
 - inspect: `glrt inspect`
 - paths: `glrt paths`
 - chart: `glrt chart`

@@ -1,13 +1,15 @@
 """`glrt inspect`: show what a scene holds and what its kernel contains."""
 
 import argparse
+from collections.abc import Iterator
 
 from glrt.cli.options import SCENE, add_context, add_files, add_pipeline, add_settings, error_limit
 from glrt.cli.request import check_limit, open_renderer, scene_and_settings
+from glrt.cli.simplify import add_simplify, check_simplify, simplify
 from glrt.core.errors import UsageError
 from glrt.core.text import counted
 from glrt.image.sources import recipe_of, shown
-from glrt.plan.explanation import explain
+from glrt.plan.explanation import Feature, explain
 from glrt.plan.omissions import left_out, omissions
 from glrt.plan.plan import prepare
 from glrt.plan.slow_scenes import slow_because
@@ -18,9 +20,13 @@ from glrt.settings import Settings
 
 DESCRIPTION = (
     "Show what a scene holds, and what the kernel for it contains and leaves out, and why; with "
-    "--error, measure the cheapest method and the fewest bounces that reach it."
+    "--error, measure the cheapest method and the fewest bounces that reach it; with --simplify "
+    "too, what the scene can do without."
 )
-EPILOG = ""
+EPILOG = (
+    "Exit codes: 0 done, also where nothing can go, 1 a file could not be written, 2 wrong usage "
+    "or scene."
+)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -39,29 +45,44 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="print the shader that the driver gets for this scene, and nothing else",
     )
+    parser.add_argument(
+        "--all",
+        action="store_true",
+        help="list the features that the kernel leaves out too, each with its reason; with "
+        "--simplify: name all that can go",
+    )
+    add_simplify(parser)
     add_context(parser)
     add_pipeline(parser)
     add_files(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Print the features or the text of the kernel, and what reaches an error; return 0."""
+    """Print the features or the text of the kernel, and what reaches an error; return 0.
+
+    With --simplify: print what can go from the scene instead.
+    """
+    check_simplify(arguments)
     if arguments.pipeline != "auto" and not arguments.kernel:
         raise UsageError("--pipeline chooses the kernel that --kernel prints: give both.")
     scene, settings = scene_and_settings(arguments)
     if arguments.kernel:
         print(_kernel(arguments, scene, settings), end="")
         return 0
-    _explain(arguments.scene, scene, settings)
+    if arguments.error is not None:
+        check_limit("error", arguments.error)
+    if arguments.simplify:
+        simplify(arguments, scene, settings)
+        return 0
+    _explain(arguments.scene, scene, settings, arguments.all)
     if arguments.error is not None:
         from glrt.analysis.method_choice.advice import advise
 
-        check_limit("error", arguments.error)
         advise(arguments, scene, settings)
     return 0
 
 
-def _explain(name: str, scene: Scene, settings: Settings) -> None:
+def _explain(name: str, scene: Scene, settings: Settings, is_whole: bool) -> None:
     from glrt.gpu.driver_checks import LLVMPIPE_ROUNDS
     from glrt.rendering.schedule import iterations_per_sample
 
@@ -70,8 +91,7 @@ def _explain(name: str, scene: Scene, settings: Settings) -> None:
     print(f"method {settings.method}, {bounces}, {count}\n")
     print("\n".join(summary(scene)) + "\n")
     plan = prepare(scene, settings)
-    for feature in explain(plan):
-        print(f"{'in ' if feature.present else 'out'}  {feature.name:<15} {feature.reason}")
+    print("\n".join(_features(explain(plan), is_whole)))
     if missing := omissions(plan.facts, settings):
         print(f"\n{left_out(settings, missing)}")
     rounds = iterations_per_sample(plan)
@@ -85,6 +105,20 @@ def _explain(name: str, scene: Scene, settings: Settings) -> None:
         print(f"\ncaution: {text}")
     for text in slow_because(plan.facts, settings):
         print(f"\nslow: {text}")
+
+
+def _features(found: list[Feature], is_whole: bool) -> Iterator[str]:
+    """Yield a line for each feature of the kernel, then those left out: lines, or a paragraph."""
+    width = max(len(it.name) for it in found if it.present or is_whole)
+    for feature in found:
+        if feature.present:
+            yield f"in   {feature.name:<{width}}  {feature.reason}"
+    out = [it for it in found if not it.present]
+    if is_whole:
+        yield from (f"out  {it.name:<{width}}  {it.reason}" for it in out)
+    elif out:
+        names = ", ".join(it.name for it in out)
+        yield f"\nThe kernel leaves out {names} (--all gives the reasons)."
 
 
 def _kernel(arguments: argparse.Namespace, scene: Scene, settings: Settings) -> str:

@@ -11,6 +11,7 @@ from glrt.plan.plan import Plan
 from glrt.scene.materials.kinds import TYPES
 from glrt.scene.shapes.kinds import KINDS, SAMPLED
 
+_SORT = {"none": "material of type none"}
 _SPOKEN = {"dielectric": "glass", "none": "no surface"}
 
 
@@ -44,7 +45,7 @@ def _materials(case: Case, needs: Needs) -> Iterator[Feature]:
     for kind in TYPES:
         if kind not in WITHOUT_OWN_FLAG:
             named = [name for name, it in case.facts.materials.items() if it.type == kind]
-            reason = reasons.listed(named, kind)
+            reason = reasons.listed(named, _SORT.get(kind, f"{kind} material"))
             yield Feature(_SPOKEN.get(kind, kind), kind in needs.materials, reason)
 
 

@@ -110,7 +110,7 @@ class Needs:
     has_normal_map: bool = _textured("normal maps", "normal")
     has_coverage_map: bool = _textured("textured alpha", "alpha")
     has_transmission_map: bool = _textured("textured transmission", "transmission")
-    has_hole: bool = _made_of("alpha below 1 or none", "holes", lambda it: it.passed)
+    has_hole: bool = _made_of("surface with holes", "holes", lambda it: it.passed)
     has_media: bool = _row(lambda it: it.has_media, "media", reasons.media)
     has_grid: bool = _row(lambda it: it.has_grids, "grids", reasons.grids)
     has_transfer: bool = _row(lambda it: it.has_transfers, "transfer", reasons.transfers)
@@ -158,7 +158,7 @@ class Needs:
     has_one_sided: bool = _row(  # lamps that emit from their front alone
         lambda it: bool(it.facts.one_sided),
         "one-sided lamps",
-        reasons.emitting("one side", lambda it: it.one_sided),
+        reasons.emitting("a dark back", lambda it: it.one_sided),
     )
     has_coincident: bool = _row(  # flat lamps that share a place with other surfaces
         lambda it: bool(it.facts.coincidence.pairs),

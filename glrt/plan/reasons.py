@@ -25,17 +25,17 @@ def textured(*keys: str) -> Reason:
 
     def reason(case: Case) -> str:
         there = [key for key in keys if key in case.facts.mapped]
-        return f"{' and '.join(there or keys)} by {'a texture' if there else 'no texture'}"
+        return f"a texture gives {' and '.join(there)}" if there else "no texture"
 
     return reason
 
 
 def emitting(what: str, names: Callable[[SceneFacts], list[str]]) -> Reason:
-    """Return the reason of a feature that lamps need which emit with a cone or one side."""
+    """Return the reason of a feature that lamps need which have a cone or a dark back."""
 
     def reason(case: Case) -> str:
         found = names(case.facts)
-        return f"emission with {what}: {few(found)}" if found else f"no lamp emits with {what}"
+        return f"{what}: {few(found)}" if found else f"no lamp with {what}"
 
     return reason
 
@@ -240,4 +240,4 @@ def _of(count: str, least: int) -> str:
 def listed(names: Iterable[str], kind: str) -> str:
     """Return the materials of a kind, or that there is none."""
     some = few(names)
-    return f"{kind}: {some}" if some else f"nothing is {kind}"
+    return f"{kind}: {some}" if some else f"no {kind}"

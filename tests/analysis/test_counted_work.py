@@ -108,7 +108,7 @@ def test_the_whole_frame_is_measured_in_its_own_shape(
     size: tuple[int, int], small: tuple[int, int]
 ) -> None:
     settings = Settings(width=size[0], height=size[1], aov=("depth",))
-    found = search._small_frame(settings)
+    found = search.small_frame(settings)
     assert (found.width, found.height) == small
     assert found.aov == ()
 

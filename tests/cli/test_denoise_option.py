@@ -112,5 +112,5 @@ def test_pilots_and_trials_measure_plain_pictures(monkeypatch: pytest.MonkeyPatc
     wanted = Settings(denoise="nlm", aov=("depth",))
     with pytest.raises(AttributeError):  # there is no renderer to release
         caustics._picture(load("cornell"), wanted, Context.__new__(Context), 64)
-    seen.append(search._small_frame(wanted))
+    seen.append(search.small_frame(wanted))
     assert [(found.denoise, found.aov) for found in seen] == [("none", ())] * 2

@@ -24,6 +24,7 @@ from glrt.scene.scene import Scene
 from glrt.settings import MAX_SAMPLES, Settings, settings_for
 
 _DOUBT = ", which is not to be believed (few samples carry much of its light)"
+_TITLE = "Measuring which method suffices ..."
 SHARE = 0.5  # most time of the measurement, relative to what is left of `--time`
 # The reasons for a decision, as recipes store them.
 BY_WORK = "auto: counted work"
@@ -103,7 +104,7 @@ def _verdict(
 ) -> Verdict:
     context = open_context(arguments.context)
     try:
-        with _steps(arguments) as report:
+        with steps(arguments, _TITLE) as report:
             asked = asked._replace(bounces=_bounces_given(arguments))
             return what_suffices(scene, settings, asked, context, report)
     finally:
@@ -111,9 +112,8 @@ def _verdict(
 
 
 @contextmanager
-def _steps(arguments: argparse.Namespace) -> Iterator[Tell]:
-    """Show the steps of the measurement on stderr: one line on a terminal, else the first."""
-    title = "Measuring which method suffices ..."
+def steps(arguments: argparse.Namespace, title: str) -> Iterator[Tell]:
+    """Show the steps of a measurement on stderr: one line on a terminal, else the title."""
     if getattr(arguments, "quiet", False):
         yield lambda _step: None
         return

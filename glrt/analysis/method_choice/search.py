@@ -97,7 +97,7 @@ def what_suffices(
     """
     error, bounces, seconds, methods = asked
     check = until(time.perf_counter() + seconds) if seconds < math.inf else _always
-    small = _small_frame(settings)
+    small = small_frame(settings)
     small = small if bounces is None else settings_for(small, bounces=bounces)
     leading = settings_for(small, method=LEADER)
     pixels = math.prod(settings.size) / math.prod(small.size)
@@ -132,7 +132,7 @@ def _always(_renderer: Renderer | None) -> bool:
     return True
 
 
-def _small_frame(settings: Settings) -> Settings:
+def small_frame(settings: Settings) -> Settings:
     """Settings for the whole frame in HEIGHT rows, or for a crop of some HEIGHT^2 pixels.
 
     They have no AOVs and no denoiser, which would cost time without effect on the choice.
