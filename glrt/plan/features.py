@@ -9,10 +9,10 @@ from typing import Any, NamedTuple
 
 from glrt.plan import reasons
 from glrt.plan.case import Case
-from glrt.plan.facts import MESH, MOST_NEAR, SceneFacts
-from glrt.plan.methods import SPATIAL, TEMPORAL
+from glrt.plan.facts import MESH, SceneFacts
+from glrt.plan.methods import SPATIAL, TEMPORAL, effect_bits
 from glrt.plan.reasons import Reason, made_of, textured
-from glrt.scene.materials.kinds import TYPES, glass_of
+from glrt.scene.materials.kinds import TYPES
 from glrt.scene.shapes.kinds import KINDS, SAMPLED
 from glrt.settings import Settings
 
@@ -65,16 +65,6 @@ def _followed(kind: str, name: str, names: Callable[[SceneFacts], list[str]]) ->
         return case.traits.follows and bool(names(case.facts))
 
     return _row(when, name, made_of(kind, lambda it: names(it.facts)))
-
-
-def _types(case: Case) -> frozenset[str]:
-    types = {it.type for it in case.facts.materials.values() if not glass_of(it)}
-    is_solid = case.traits.follows and case.facts.solid_glasses
-    return frozenset(types | ({"dielectric"} if is_solid else set()))
-
-
-def _in_clusters(case: Case) -> str:
-    return f"{reasons.lamps(case)}; from {MOST_NEAR + 1} on"
 
 
 @dataclass(frozen=True)
@@ -136,7 +126,7 @@ class Needs:
         made_of("metal with roughness", reasons.metals(is_rough=True)),
     )
     has_conductor: bool = _made_of("measured metal", "conductors", lambda it: it.conductors)
-    materials: frozenset[str] = _row(_types)
+    materials: frozenset[str] = _row(lambda it: it.types)
     has_transmission: bool = _made_of("glass in part", "transmission", lambda it: it.transmitting)
     has_coat: bool = _made_of("principled with clearcoat", "coats", lambda it: it.coated)
     has_rough_glass: bool = _row(
@@ -204,7 +194,7 @@ class Needs:
     many_lights: bool = _row(  # more than MOST_NEAR lamps are sampled
         lambda it: it.traits.chooses_lights and it.facts.has_many_lights,
         "lamps in clusters",
-        _in_clusters,
+        reasons.in_clusters,
     )
     weight_both: bool = _row(
         lambda it: (it.is_lit or it.has_image or it.has_sun) and it.traits.weights_both,
@@ -237,6 +227,12 @@ class Needs:
     )
     unbiased: bool = _row(  # checks which reused points other pixels could have found
         lambda it: it.reuses and it.settings.unbiased, most=False
+    )
+    effects: int = _row(  # chosen effects of rays; 0: all light is traced
+        lambda it: effect_bits(it.settings), "chosen effects", reasons.effects, most=0
+    )
+    rasters: bool = _row(  # first surfaces of paths are known from a raster
+        lambda it: it.rasters, "rasterisation", reasons.raster, most=False
     )
     has_particles: bool = _row(  # particles from lamps, linked to the camera
         lambda it: it.sends_particles, "particles", reasons.caustics
