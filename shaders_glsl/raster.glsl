@@ -13,7 +13,7 @@
 #include "sampling/hole_numbers.glsl"
 #include "shapes/all_shapes.glsl"
 
-// What a draw call draws, six vertices for each.
+// Parts of a raster: a draw call for each, with six vertices for every thing that it draws.
 const int BACKDROP = 0;  // the whole frame, where nothing is met
 const int PROXIES = 1;   // rectangles around all shapes but triangles
 const int FACES = 2;     // triangles

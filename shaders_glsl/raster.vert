@@ -57,6 +57,7 @@ struct Screen {
 };
 
 vec2 slack_of(float off) {
+    if (WITHOUT_MARGIN) return vec2(0.0);
     vec2 slack = 2.0 * MARGIN / vec2(frame.size) + ROUNDED * off / vec2(frame.camera.tan_x, frame.camera.tan_y);
     return slack;
 }

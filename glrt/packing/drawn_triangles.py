@@ -1,7 +1,7 @@
 """The triangles of a scene in the order in which a rasteriser draws them.
 
-Of two surfaces at the same distance a ray sees the one with the lower number, and a depth buffer
-keeps the one that was drawn first.
+A ray sees the one with the lower number of two surfaces at the same distance. A depth buffer keeps
+the one that was drawn first.
 """
 
 from typing import Any

@@ -90,7 +90,7 @@ class Case:
 
     @property
     def types(self) -> frozenset[str]:
-        """Types of materials that the kernel tells apart: of glass, only what is followed."""
+        """Types of materials that the kernel distinguishes; glass only if it is followed."""
         types = {it.type for it in self.facts.materials.values() if not glass_of(it)}
         is_solid = self.traits.follows and self.facts.solid_glasses
         return frozenset(types | ({"dielectric"} if is_solid else set()))

@@ -20,6 +20,7 @@ NEAR = 8  # pixels around, whose kept points a pixel reuses
 NO_TREE: dict[str, bool | int] = {"TREE_STACK": 0}  # known once the BVH is built
 NO_LAYERS = {"LAYERS": 0, "BY_LENGTH": False, "BACKGROUND_LAYER": 0, "SUN_LAYER": 0}
 NO_COUNTS = {"COUNT_RAYS": False, "COUNT_BOUNCES": False, "LIGHT_TERMS": 0}
+PLAIN_RASTER = {"WITHOUT_MARGIN": False}  # draws to the middles of pixels: for experiments
 PLAIN_PROBES: dict[str, bool | int] = {
     "FROM_PROBES": False,  # paths start at probes
     "WITHOUT_VISIBILITY": False,  # ignores the visibility of probes: for experiments
@@ -270,7 +271,7 @@ class Needs:
         lamps = {f"HAS_{kind.upper()}_LIGHT": kind in self.lamps for kind in SAMPLED}
         values = {name.upper(): getattr(self, name) for name in ROWS if name not in SETS}
         every = {**kinds, **types, **lamps, **values, **NO_LAYERS, **NO_TREE, **PLAIN_PROBES}
-        return {**every, "LAMP_KINDS": len(self.lamps), **NO_COUNTS}
+        return {**every, "LAMP_KINDS": len(self.lamps), **NO_COUNTS, **PLAIN_RASTER}
 
 
 ROWS: dict[str, Row] = {it.name: it.metadata["row"] for it in fields(Needs)}

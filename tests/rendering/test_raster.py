@@ -72,7 +72,7 @@ def view(random: np.random.Generator) -> dict[str, Any]:
 
 @pytest.mark.slow
 def test_all_kinds_of_shapes_are_rastered_from_anywhere(context: Context) -> None:
-    """Through, behind and beside the camera, and at any angle of view."""
+    """Through, behind and next to the camera, and at any angle of view."""
     random = np.random.default_rng(7)
     objects = things(random)
     renderers = [
