@@ -31,7 +31,7 @@ float proxy_distance(Ray ray, int shape) {
     if (HAS_CYLINDER && up_to_cylinder(shape)) {
         return cylinder_distance(ray, cylinder_at(shape - first_cylinder()), shape);
     }
-    return 0.0;
+    return 0.0;  // a mesh
 }
 
 // As in meet_leaf.

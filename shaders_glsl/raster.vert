@@ -120,6 +120,7 @@ Screen screen_of_shape(int shape) {
         vec3 along = cylinder.half_height * cylinder.axis;
         return screen_around(cylinder.center, cylinder.radius * axes[0], cylinder.radius * axes[1], along);
     }
+    if (HAS_MESH && is_mesh(shape)) return Screen(vec2(1.0), vec2(-1.0));
     return Screen(vec2(-BEYOND), vec2(BEYOND));  // a plane may be seen anywhere
 }
 

@@ -139,8 +139,8 @@ class DeviceScene:
 
     @property
     def proxies(self) -> int:
-        """Number of shapes that are no meshes."""
-        return sum(self._counts[struct] for struct in NUMBERED if struct != "Mesh")
+        """Number of shapes; meshes among them have no proxy."""
+        return sum(self._counts[struct] for struct in NUMBERED)
 
     def raster_sources(self) -> list[Source]:
         """The shader sources that draw its first surfaces."""

@@ -16,7 +16,7 @@ from glrt.plan.plan import Plan
 from glrt.rendering.device_scene import DeviceScene, Exposed
 from glrt.rendering.schedule import DispatchRange
 
-HITS, ORDER = "raster_hits", "raster_order"  # textures
+HITS, ORDER = "raster_hits", "raster_order"  # textures: first surfaces, triangles to draw
 PARTS = read_constants(read("raster.glsl"))
 WIDTH = 1 << 12  # triangles along a row of ORDER
 

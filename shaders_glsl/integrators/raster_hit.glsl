@@ -1,12 +1,9 @@
-// First surfaces that were rasterised: see raster.frag.
+// The first surface of a pixel, where it was rasterised: entry files read it from the texture that raster.frag fills.
 
-uniform isampler2D raster_hits;  // shape, and the bits of the distance; row 0 on top
+Hit raster_hit = Hit(FAR, NO_SHAPE);
 
-Hit raster_hit = Hit(FAR, NO_SHAPE);  // of the pixel, where RASTERS
-
-void read_raster(ivec2 place) {
-    if (!RASTERS) return;
-    ivec2 found = texelFetch(raster_hits, place - frame.origin, 0).xy;
+// `found`: shape, and the bits of the distance.
+void keep_raster(ivec2 found) {
     raster_hit = Hit(intBitsToFloat(found.y), found.x);
 }
 

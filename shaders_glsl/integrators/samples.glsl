@@ -26,7 +26,6 @@ vec3 value_of(Path path) {
 int add_samples(inout Pixel pixel, inout Layers layers, ivec2 place) {
     int index = frame.first_sample;
     int end = index + frame.sample_count;
-    read_raster(place);
     Sampler rng = sampler_at(place, index, frame.seed);
     Path path = camera_path(place, rng);
     start_resampling(rng);
