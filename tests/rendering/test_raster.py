@@ -134,11 +134,14 @@ def test_a_crop_is_a_part_of_the_raster(context: Context) -> None:
 
 @pytest.mark.slow
 def test_of_surfaces_at_one_distance_the_first_is_seen(context: Context) -> None:
-    """Two quads in one place: rays see the one with the lower number, and so does the raster."""
+    """Two quads in one plane: rays see the one with the lower number, and so does the raster."""
     colors = {"red": [0.9, 0, 0], "green": [0, 0.9, 0]}
     materials = {name: {"type": "lambertian", "color": color} for name, color in colors.items()}
     for names in (("red", "green"), ("green", "red")):
-        pair = [quad([-1, -1, -2], [2, 0, 0], [0, 2, 0], name) for name in names]
+        pair = [
+            quad([-half, -half, -2], [2 * half, 0, 0], [0, 2 * half, 0], name)
+            for half, name in zip((1.0, 1.5), names, strict=True)
+        ]
         scene = scene_of(pair, materials, {"fov": 20}, background={"color": [1] * 3})
         red, green, _ = picture(scene, context).mean(axis=(0, 1))
         seen = {"red": red, "green": green}
