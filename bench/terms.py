@@ -63,13 +63,13 @@ def _run(parsed: argparse.Namespace) -> None:
         ratio = ratio_of(found.with_terms, found.without)
         print(f"| `{method}` | {' | '.join(row)} | {ratio} |", flush=True)
         titles = [method, *SHOWN]
-        cells += [_titled(title, mean) for title, mean in zip(titles, means, strict=True)]
+        cells += [titled(title, mean) for title, mean in zip(titles, means, strict=True)]
     print(f"\n{machine(context.renderer)}; {parsed.size} x {parsed.size}, {parsed.samples} samples")
     if parsed.file:
         columns = 1 + len(SHOWN)
         rows = (cells[i : i + columns] for i in range(0, len(cells), columns))
         sheet = np.concatenate([np.concatenate(row, axis=1) for row in rows])
-        write_whole(parsed.file, lambda path: _write(path, sheet))
+        write_whole(parsed.file, lambda path: write_sheet(path, sheet))
 
 
 def _found(context: Context, method: Method, parsed: argparse.Namespace) -> Found:
@@ -91,13 +91,15 @@ def _found(context: Context, method: Method, parsed: argparse.Namespace) -> Foun
         sorting.release()
 
 
-def _write(path: Path, sheet: Codes) -> None:
+def write_sheet(path: Path, sheet: Codes) -> None:
+    """Write a sheet of pictures as a JPEG file."""
     from PIL import Image as Pictures
 
     Pictures.fromarray(sheet).save(path, "JPEG", quality=88, subsampling=0)
 
 
-def _titled(title: str, radiance: NDArray[Any]) -> Codes:
+def titled(title: str, radiance: NDArray[Any]) -> Codes:
+    """Return a picture of radiance as codes, (H + TITLE, W, 3), with its title above."""
     from PIL import Image as Pictures
     from PIL import ImageDraw
 

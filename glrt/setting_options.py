@@ -7,6 +7,7 @@ from glrt.settings import (
     Aov,
     Caustics,
     Denoise,
+    Effect,
     Method,
     Reuse,
     Sampler,
@@ -21,6 +22,7 @@ class FrameOptions(TypedDict, total=False):
     height: int
     bounces: int
     method: Method
+    effects: tuple[Effect, ...]
     phong: Phong | None
     crop: tuple[int, int, int, int] | None
     sampler: Sampler

@@ -26,7 +26,9 @@ Method = Literal[
     "ddgi",
     "gather",
     "resampled",
+    "hybrid",
 ]
+Effect = Literal["shadows", "reflections", "refractions", "ambient_occlusion", "gi"]
 Sampler = Literal["sobol", "sobol64", "independent"]
 Caustics = Literal["off", "on"]
 ToneMap = Literal["none", "aces", "agx", "neutral"]
@@ -39,6 +41,8 @@ MAX_SAMPLES = 1 << 20  # a float32 running mean is good up to here
 BLOCKS = {"sobol": 16, "sobol64": 64, "independent": 1}  # samples in an observation, by sampler
 GUIDES: tuple[Aov, ...] = ("albedo", "normal")  # AOVs that guide a denoiser
 TERMS: tuple[Term, ...] = get_args(Term)  # AOVs that are parts of the picture's light
+EFFECTS: tuple[Effect, ...] = get_args(Effect)  # of rays, by method hybrid
+NAMED_EFFECTS = {"all": EFFECTS, "none": ()}
 OF_PATHS: tuple[Aov, ...] = ("bounces", *TERMS)  # AOVs of whole paths, not of first surfaces
 
 
@@ -65,13 +69,30 @@ class RenderSettings(Frozen):
         "out; ddgi: "
         "direct light as in mis, indirect light from a grid of probes; gather: as ddgi, but paths "
         "are traced to one more matte surface (final gathering); resampled: as gather, but the "
-        "first matte surface is lit by one resampled point",
+        "first matte surface is lit by one resampled point; hybrid: the first surface by "
+        "rasterisation, direct light, and the effects of rays that `effects` lists",
+    )
+    effects: Annotated[tuple[Effect, ...], Editable(Cost.RECOMPILE)] = Field(
+        EFFECTS,
+        description="effects of rays that method hybrid adds to a rasterised picture: "
+        f"{', '.join(EFFECTS)}; all; none",
     )
     phong: Annotated[Phong | None, Editable(Cost.RESTART)] = Field(
         None,
         description="constants of methods phong and blinn for all surfaces, in a table "
         "[render.phong]; default: materials have theirs",
     )
+
+    @field_validator("effects", mode="before")
+    @classmethod
+    def _effects_are_named(cls, value: Any) -> Any:
+        name = value[0] if isinstance(value, list | tuple) and len(value) == 1 else value
+        return NAMED_EFFECTS.get(name, value) if isinstance(name, str) else value
+
+    @field_validator("effects")
+    @classmethod
+    def _effects_in_order(cls, value: tuple[Effect, ...]) -> tuple[Effect, ...]:
+        return tuple(effect for effect in EFFECTS if effect in value)
 
 
 Pixels = Annotated[int, Field(ge=0, le=16384)]

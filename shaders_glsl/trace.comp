@@ -16,6 +16,7 @@ layout(rgba32f) uniform writeonly image2D target_variance;
 layout(rgba32f) uniform writeonly image2D target_block;
 uniform sampler2D source_layers;  // a: its samples; OpenGL promises eight images, which the others are
 layout(rgba32f) uniform writeonly image2D target_layers;
+uniform isampler2D raster_hits;  // first surfaces: see raster.frag
 layout(rgba32f) uniform writeonly image2D target_reservoirs;
 
 layout(std430) buffer Lost { uint lost_samples; };
@@ -60,6 +61,7 @@ void main() {
     if (any(greaterThanEqual(texel, picture))) return;
     Pixel pixel = load_pixel(texel);
     Layers layers = load_layers(texel);
+    if (RASTERS) keep_raster(texelFetch(raster_hits, texel, 0).xy);
     int lost = add_samples(pixel, layers, frame.origin + texel);
     if ((HAS_SPHERE_TREE || HAS_TREE || HAS_MESH) && lost > 0) atomicAdd(lost_samples, uint(lost));
     imageStore(target_mean, texel, vec4(pixel.mean, pixel.count));

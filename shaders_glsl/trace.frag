@@ -7,6 +7,7 @@
 uniform sampler2D source_mean;      // as in trace.comp
 uniform sampler2D source_variance;
 uniform sampler2D source_block;
+uniform isampler2D raster_hits;
 layout(location = 0) out vec4 target_mean;
 layout(location = 1) out vec4 target_variance;
 layout(location = 2) out vec4 target_block;
@@ -23,6 +24,7 @@ Pixel load_pixel(ivec2 texel) {
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);
     Pixel pixel = load_pixel(texel);
+    if (RASTERS) keep_raster(texelFetch(raster_hits, texel, 0).xy);
     add_samples(pixel, frame.origin + texel);
     target_mean = vec4(pixel.mean, pixel.count);
     target_variance = vec4(pixel.variance, pixel.observations);

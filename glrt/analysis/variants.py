@@ -8,7 +8,7 @@ from glrt.denoise import oidn
 from glrt.plan.combinations import refusal
 from glrt.plan.facts import SceneFacts
 from glrt.plan.features import needs_of
-from glrt.plan.methods import METHODS as TRAITS
+from glrt.plan.methods import traits_of
 from glrt.scene.scene import Scene
 from glrt.settings import Method, Settings, settings_for
 
@@ -54,7 +54,8 @@ def variants_of(
 
 def _of_method(method: str, settings: Settings) -> tuple[str, dict[str, Any]]:
     """A method without changes; a method with probes gets the sampler that it needs."""
-    if not TRAITS[method].has_probes or settings.block > 1:
+    has_probes = traits_of(settings_for(settings, method=method)).has_probes
+    if not has_probes or settings.block > 1:
         return method, {"method": method}
     return f"{method}, sobol", {"method": method, "sampler": "sobol"}
 

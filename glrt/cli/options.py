@@ -179,7 +179,7 @@ def _shown(default: Any) -> str:
 def _options(name: str, annotation: Any, unit: str) -> dict[str, Any]:
     if name == "crop":
         return {"nargs": 4, "type": int, "metavar": ("X", "Y", "W", "H")}
-    if name == "aov":
+    if name in ("aov", "effects"):
         return {"type": _names, "metavar": "NAME,..."}
     if annotation is bool:
         return {"action": argparse.BooleanOptionalAction}

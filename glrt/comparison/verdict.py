@@ -22,7 +22,7 @@ from glrt.comparison.sensitivity import sensitivity
 from glrt.core.errors import UsageError
 from glrt.error.estimate import sidak_threshold
 from glrt.image.image import Image
-from glrt.plan.methods import METHODS
+from glrt.plan.methods import traits_of
 
 Flags = NDArray[np.bool_]
 
@@ -77,12 +77,12 @@ def _check(image: Image, reference: Image) -> None:
                 f"the {name} does not say how many samples a pixel it has: give them by --samples "
                 "for the image and --reference-samples for the reference."
             )
-        method = picture.recipe.settings.method if picture.recipe else None
-        if method and METHODS[method].has_probes:
+        settings = picture.recipe.settings if picture.recipe else None
+        if settings and traits_of(settings).has_probes:
             raise UsageError(
-                f"the {name} was rendered by {method}, whose pixels share the noise of their "
-                "probes: glrt compare takes the noise of pixels for independent, and would call "
-                "equal pictures different. Compare pictures of another method, such as mis."
+                f"the {name} was rendered by {settings.method}, whose pixels share the noise of "
+                "their probes: glrt compare takes the noise of pixels for independent, and would "
+                "call equal pictures different. Compare pictures of another method, such as mis."
             )
 
 

@@ -8,9 +8,11 @@ Modules, each importing only what stands above it:
 - structs: GLSL structs read as numpy dtypes
 - glsl: shader files put together into what the driver gets
 - program: a compiled program, its blocks and images bound by name
+- raster_kernel: a program that draws vertices into a depth buffer
 - programs: compiled programs that users of a context share
 - context: routes to an OpenGL context: EGL, OSMesa, a hidden window
 - struct_arrays: how a kernel reads an array: constants, uniform block or texture
+- depth_texture: a depth buffer of floats
 - canvas: textures that are drawn on
 - shared_resources: buffers and textures with several users
 - evaluate: single GLSL functions over arrays

@@ -65,9 +65,9 @@ class Kernel:
 
         Names that the compiler dropped need none; a missing one is a KeyError with its name.
         """
-        _bind_blocks(self._program, scene)
+        bind_blocks(self._program, scene)
         sampled = {name: images[name] for name in images if name in SAMPLED}
-        _bind_textures(self._program, {**scene, **sampled})
+        bind_textures(self._program, {**scene, **sampled})
         used = [name for name in images if name not in sampled and name in self._program]
         for unit, name in enumerate(used):
             self._program[name] = unit
@@ -102,8 +102,8 @@ class FragmentKernel:
 
     def bind(self, scene: Mapping[str, Resource], images: Images) -> None:
         """Bind as Kernel.bind; images named "target..." are drawn to, in their order."""
-        _bind_blocks(self._program, scene)
-        _bind_textures(self._program, {**scene, **images})
+        bind_blocks(self._program, scene)
+        bind_textures(self._program, {**scene, **images})
         self.rest()
         targets = [texture for name, texture in images.items() if name.startswith("target")]
         self._targets = self._gl.framebuffer(color_attachments=targets)
@@ -135,7 +135,7 @@ def drawing(gl: moderngl.Context, vertex: Source, fragment: Source) -> moderngl.
         raise _refusal(fragment, error) from error
 
 
-def _bind_blocks(
+def bind_blocks(
     program: moderngl.ComputeShader | moderngl.Program, scene: Mapping[str, Resource]
 ) -> None:
     """Bind the blocks; each kind counts from 0, as OpenGL 4.3 grants only 8 storage blocks."""
@@ -153,9 +153,10 @@ def _bind_blocks(
             buffer.bind_to_storage_buffer(slot)
 
 
-def _bind_textures(
+def bind_textures(
     program: moderngl.ComputeShader | moderngl.Program, resources: Mapping[str, Resource]
 ) -> None:
+    """Bind the textures of a program, by the names of its samplers."""
     units = count()  # OpenGL 4.3 grants 16 textures to a shader
     for name, texture in resources.items():
         if isinstance(texture, moderngl.Texture) and name in program:

@@ -5,8 +5,9 @@ from dataclasses import dataclass
 
 from glrt.gpu.glsl import Source
 from glrt.gpu.program import FragmentKernel, Kernel
+from glrt.gpu.raster_kernel import RasterKernel
 
-AnyKernel = Kernel | FragmentKernel
+AnyKernel = Kernel | FragmentKernel | RasterKernel
 IDLE = 8  # unused programs that are kept
 
 

@@ -6,7 +6,7 @@ Modules, each importing only what stands above it:
 - scenes: builders of small scenes
 - sweep: the result of a sweep and its guarantee, and what cases run with
 - rays: intersections from far away, at every scale, at grazing angles
-- triangles: rays at edges, and rays that leave
+- triangles: rays at edges, rays that leave, and triangles that are drawn
 - lamps: small lamps, many lamps, a lamp below a ceiling
 - spots: edges of cones, one spot among many
 - glass: refraction and caustics

@@ -31,6 +31,7 @@ _ALL = (
     Case("edges", "Rays at the edge that two triangles share", triangles.edges),
     Case("leave", "Rays that leave a triangle", triangles.leave),
     Case("stretch", "Rays that leave a flattened mesh with a tree of its own", triangles.stretch),
+    Case("drawn", "Triangles that are drawn, and smaller ones", triangles.drawn),
     Case("fov", "Narrow and wide fields of view", views.fov),
     Case("ior", "Glass with an index near 1", glass.ior),
     Case("lamp", "A small lamp", lamps.lamp),

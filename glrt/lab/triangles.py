@@ -1,9 +1,10 @@
-"""Triangles: rays through the edge that two of them share, and rays that leave one."""
+"""Triangles: rays through a shared edge, rays that leave one, and triangles that are drawn."""
 
 import numpy as np
 
 from glrt.lab.scenes import Table, matte, scene_of
 from glrt.lab.sweep import Array, Lab, Sweep
+from glrt.rendering.pipelines import PLAIN, Variant
 from glrt.rendering.shader_functions import World
 from glrt.scene.files.named_meshes import MeshFile, mesh_of_arrays
 from glrt.scene.scene import Scene
@@ -145,6 +146,40 @@ def stretch(lab: Lab) -> Sweep:
         others={"starts where it was hit": naive},
         promise=f"none of {rows} rays, however flat the ball",
         bound=[0.5 / rows] * len(x),
+    )
+
+
+RINGS = (4, 8, 32, 128)  # of triangles around a ball
+AT_MIDDLES = Variant({"WITHOUT_MARGIN": True})
+TRACED = Variant({"RASTERS": False})
+
+
+def drawn(lab: Lab) -> Sweep:
+    """Share of samples that see another first surface in a raster than by a ray."""
+    side, samples = lab.count(96), 4
+    way = {"width": side, "height": side, "method": "hybrid", "effects": ()}
+    wrong, sizes = [], []
+    for rings in RINGS:
+        points, faces = _ball(rings)
+        thing: Table = {"shape": "mesh", "material": "white", "smooth": False}
+        mesh = {**thing, "file": mesh_of_arrays(points, faces), "rotate": [20.0, 30.0, 40.0]}
+        sky = {"bottom": [0.2, 0.3, 0.9], "top": [0.9, 0.5, 0.1]}
+        eye = {"position": [0.0, 0.0, 3.0], "fov": 40.0}
+        scene = scene_of([mesh], {"white": matte(0.5)}, eye, background=sky)
+        seen = [
+            lab.render(scene, samples, by, **way).radiance for by in (PLAIN, AT_MIDDLES, TRACED)
+        ]
+        wrong.append([float((it != seen[2]).any(axis=2).mean()) for it in seen[:2]])
+        sizes.append(side**2 / len(faces))
+    ours, naive = np.array(wrong).T.tolist()
+    return Sweep(
+        parameter="pixels for each triangle of a ball",
+        measure="share of pixels with another\nfirst surface than rays find",
+        x=sizes,
+        chosen=("glrt: triangles grown by a pixel's half, and solved again", ours),
+        others={"drawn where they cover the middle of a pixel": naive},
+        promise="none, however small the triangles",
+        bound=[0.0] * len(sizes),
     )
 
 

@@ -5,8 +5,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from glrt.plan.facts import SceneFacts
-from glrt.plan.methods import METHODS, Traits, reuses_points
+from glrt.plan.methods import METHODS, Traits, reuses_points, traits_of
 from glrt.plan.particles import ParticleFacts
+from glrt.scene.materials.kinds import glass_of
 from glrt.scene.materials.metal import Metal
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
@@ -29,7 +30,7 @@ class Case:
     @property
     def traits(self) -> Traits:
         """Traits of the method."""
-        return METHODS[self.settings.method]
+        return traits_of(self.settings)
 
     @property
     def particles(self) -> ParticleFacts:
@@ -91,6 +92,19 @@ class Case:
             return False
         is_sampled = self.is_lit and self.traits.samples_lights
         return is_sampled and self.facts.sampled_lamps <= MOST_APPROACHED
+
+    @property
+    def types(self) -> frozenset[str]:
+        """Types of materials that the kernel distinguishes; glass only if it is followed."""
+        types = {it.type for it in self.facts.materials.values() if not glass_of(it)}
+        is_solid = self.traits.follows and self.facts.solid_glasses
+        return frozenset(types | ({"dielectric"} if is_solid else set()))
+
+    @property
+    def rasters(self) -> bool:
+        """Whether first surfaces are rasterised: with a lens or shared places they are traced."""
+        has_lens = self.scene.camera.defocus_angle > 0
+        return self.traits.rasters and not has_lens and not self.facts.coincidence.pairs
 
     @property
     def aims(self) -> bool:

@@ -13,7 +13,7 @@ import numpy as np
 
 from glrt.core.errors import UsageError
 from glrt.plan.facts import SceneFacts
-from glrt.plan.methods import METHODS, reuses_points
+from glrt.plan.methods import METHODS, reuses_points, traits_of
 from glrt.plan.plan import Layering
 from glrt.scene.shapes.kinds import SAMPLED, Shape
 from glrt.scene.shapes.plane import Plane
@@ -36,6 +36,7 @@ class Way(StrEnum):
     CLASSIC = "a classic lighting model"
     PROBES = "a method with probes"
     REUSE = "reuse of points"
+    HYBRID = "the method hybrid"
     PARTICLES = "--caustics on"
     PILOT = "--caustics auto"
     DENOISE = "--denoise"
@@ -57,6 +58,8 @@ MEANINGS: dict[Way, str] = {
     Way.CLASSIC: "`--method phong`, `blinn`, `whitted`, `whitted_tree`, `cook`",
     Way.PROBES: "`--method ddgi`, `gather`, `resampled`: indirect light from probes",
     Way.REUSE: "`--method resampled`, unless `--reuse none`: points that other samples have kept",
+    Way.HYBRID: "`--method hybrid`: first surfaces by rasterisation, and chosen effects of rays; "
+    "with the effect gi it has probes, too",
     Way.PARTICLES: "`--caustics on`: particles from lamps",
     Way.PILOT: "`--caustics auto`, the default: particles where a pilot finds that they pay",
     Way.DENOISE: "`--denoise`: a picture without its noise, with the error that is left",
@@ -85,27 +88,32 @@ _WORKS: dict[Way, tuple[Way, ...]] = {
     ),
     Way.PROBES: (Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.TERMS),
     Way.REUSE: (Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.PROBES),
+    Way.HYBRID: (
+        *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.FRAGMENT),
+        *(Way.TERMS, Way.INDEPENDENT, Way.PROBES),
+    ),
     Way.PARTICLES: (
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.INDEPENDENT),
     ),
     Way.PILOT: (
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.FRAGMENT),
-        *(Way.TERMS, Way.INDEPENDENT, Way.CLASSIC, Way.PROBES, Way.REUSE),
+        *(Way.TERMS, Way.INDEPENDENT, Way.CLASSIC, Way.PROBES, Way.REUSE, Way.HYBRID),
     ),
     Way.DENOISE: (
         *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
         *(Way.CLASSIC, Way.PROBES, Way.REUSE, Way.PARTICLES, Way.PILOT, Way.TERMS),
+        Way.HYBRID,
     ),
     Way.AUTO: (Way.CROP, Way.AOV, Way.TERMS, Way.FRAGMENT, Way.INDEPENDENT, Way.PILOT),
     Way.TIME: (
         *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
         *(Way.CLASSIC, Way.PROBES, Way.REUSE, Way.PARTICLES, Way.PILOT, Way.DENOISE, Way.AUTO),
-        Way.TERMS,
+        *(Way.TERMS, Way.HYBRID),
     ),
     Way.ERROR: (
         *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
         *(Way.CLASSIC, Way.PROBES, Way.REUSE, Way.PARTICLES, Way.PILOT, Way.DENOISE, Way.AUTO),
-        *(Way.TERMS, Way.TIME),
+        *(Way.TERMS, Way.TIME, Way.HYBRID),
     ),
 }
 
@@ -136,6 +144,10 @@ _REFUSED: dict[frozenset[Way], str] = {
     frozenset({Way.REUSE, Way.CLASSIC}): "each is a method",
     frozenset({Way.REUSE, Way.PARTICLES}): "particles are weighed by the method mis alone",
     frozenset({Way.REUSE, Way.AUTO}): "it chooses among methods that leave no light out",
+    frozenset({Way.HYBRID, Way.CLASSIC}): "each is a method",
+    frozenset({Way.HYBRID, Way.REUSE}): "each is a method",
+    frozenset({Way.HYBRID, Way.PARTICLES}): "particles are weighed by the method mis alone",
+    frozenset({Way.HYBRID, Way.AUTO}): "it chooses among methods that leave no light out",
     frozenset({Way.PARTICLES, Way.CLASSIC}): "particles are weighed by the method mis alone",
     frozenset({Way.PARTICLES, Way.AUTO}): "particles are weighed by the method mis alone: name it",
     frozenset({Way.PARTICLES, Way.PILOT}): "the one leaves open what the other says",
@@ -185,10 +197,12 @@ def check_render(
     ways = ways_of(settings, layering)
     ways |= {Way.PART} if is_part else set()
     check(ways | ({Way.FRAGMENT} if is_fragment else set()))
-    if facts.media.names and METHODS[settings.method].has_probes:
+    traits = traits_of(settings)
+    if facts.media.names and (traits.has_probes or traits.rasters):
+        why = "a raster finds" if traits.rasters else "its probes hold the light of"
         raise UsageError(
-            f"Method {settings.method} does not go with media ({few(facts.media.names)}): its "
-            "probes hold the light of surfaces alone. Use the method mis, nee or naive."
+            f"Method {settings.method} does not go with media ({few(facts.media.names)}): {why} "
+            "surfaces alone. Use the method mis, nee or naive."
         )
     if settings.method == "resampled" and settings.terms:
         raise UsageError(
@@ -208,8 +222,9 @@ def ways_of(settings: Settings, layering: Layering = "none") -> set[Way]:
         Way.LAYERS: layering != "none" and not settings.terms,  # a plan with terms is not relit
         Way.INDEPENDENT: settings.sampler == "independent",
         Way.CLASSIC: METHODS[settings.method].model != 0,
-        Way.PROBES: METHODS[settings.method].has_probes,
+        Way.PROBES: traits_of(settings).has_probes,
         Way.REUSE: reuses_points(settings),
+        Way.HYBRID: METHODS[settings.method].rasters,
         Way.PARTICLES: settings.caustics == "on",
         Way.DENOISE: settings.denoise != "none",
     }

@@ -9,10 +9,10 @@ from typing import Any, NamedTuple
 
 from glrt.plan import reasons
 from glrt.plan.case import Case
-from glrt.plan.facts import MESH, MOST_NEAR, SceneFacts
-from glrt.plan.methods import SPATIAL, TEMPORAL
+from glrt.plan.facts import MESH, SceneFacts
+from glrt.plan.methods import SPATIAL, TEMPORAL, effect_bits
 from glrt.plan.reasons import Reason, made_of, textured
-from glrt.scene.materials.kinds import TYPES, glass_of
+from glrt.scene.materials.kinds import TYPES
 from glrt.scene.shapes.kinds import KINDS, SAMPLED
 from glrt.settings import Settings
 
@@ -20,6 +20,7 @@ NEAR = 8  # pixels around, whose kept points a pixel reuses
 NO_TREE: dict[str, bool | int] = {"TREE_STACK": 0}  # known once the BVH is built
 NO_LAYERS = {"LAYERS": 0, "BY_LENGTH": False, "BACKGROUND_LAYER": 0, "SUN_LAYER": 0}
 NO_COUNTS = {"COUNT_RAYS": False, "COUNT_BOUNCES": False, "LIGHT_TERMS": 0}
+PLAIN_RASTER = {"WITHOUT_MARGIN": False}  # draws to the middles of pixels: for experiments
 PLAIN_PROBES: dict[str, bool | int] = {
     "FROM_PROBES": False,  # paths start at probes
     "WITHOUT_VISIBILITY": False,  # ignores the visibility of probes: for experiments
@@ -65,16 +66,6 @@ def _followed(kind: str, name: str, names: Callable[[SceneFacts], list[str]]) ->
         return case.traits.follows and bool(names(case.facts))
 
     return _row(when, name, made_of(kind, lambda it: names(it.facts)))
-
-
-def _types(case: Case) -> frozenset[str]:
-    types = {it.type for it in case.facts.materials.values() if not glass_of(it)}
-    is_solid = case.traits.follows and case.facts.solid_glasses
-    return frozenset(types | ({"dielectric"} if is_solid else set()))
-
-
-def _in_clusters(case: Case) -> str:
-    return f"{reasons.lamps(case)}; from {MOST_NEAR + 1} on"
 
 
 @dataclass(frozen=True)
@@ -137,7 +128,7 @@ class Needs:
         made_of("metal with roughness", reasons.metals(is_rough=True)),
     )
     has_conductor: bool = _made_of("measured metal", "conductors", lambda it: it.conductors)
-    materials: frozenset[str] = _row(_types)
+    materials: frozenset[str] = _row(lambda it: it.types)
     has_transmission: bool = _made_of("glass in part", "transmission", lambda it: it.transmitting)
     has_coat: bool = _made_of("principled with clearcoat", "coats", lambda it: it.coated)
     has_rough_glass: bool = _row(
@@ -205,7 +196,7 @@ class Needs:
     many_lights: bool = _row(  # more than MOST_NEAR lamps are sampled
         lambda it: it.traits.chooses_lights and it.facts.has_many_lights,
         "lamps in clusters",
-        _in_clusters,
+        reasons.in_clusters,
     )
     weight_both: bool = _row(
         lambda it: (it.is_lit or it.has_image or it.has_sun) and it.traits.weights_both,
@@ -238,6 +229,12 @@ class Needs:
     )
     unbiased: bool = _row(  # checks which reused points other pixels could have found
         lambda it: it.reuses and it.settings.unbiased, most=False
+    )
+    effects: int = _row(  # chosen effects of rays; 0: all light is traced
+        lambda it: effect_bits(it.settings), "chosen effects", reasons.effects, most=0
+    )
+    rasters: bool = _row(  # first surfaces of paths are known from a raster
+        lambda it: it.rasters, "rasterisation", reasons.raster, most=False
     )
     has_particles: bool = _row(  # particles from lamps, linked to the camera
         lambda it: it.sends_particles, "particles", reasons.caustics
@@ -275,7 +272,7 @@ class Needs:
         lamps = {f"HAS_{kind.upper()}_LIGHT": kind in self.lamps for kind in SAMPLED}
         values = {name.upper(): getattr(self, name) for name in ROWS if name not in SETS}
         every = {**kinds, **types, **lamps, **values, **NO_LAYERS, **NO_TREE, **PLAIN_PROBES}
-        return {**every, "LAMP_KINDS": len(self.lamps), **NO_COUNTS}
+        return {**every, "LAMP_KINDS": len(self.lamps), **NO_COUNTS, **PLAIN_RASTER}
 
 
 ROWS: dict[str, Row] = {it.name: it.metadata["row"] for it in fields(Needs)}

@@ -3,13 +3,14 @@
 docs/extending.md explains how to add a method.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import get_args
 
 from glrt.gpu.glsl import read
 from glrt.gpu.structs import read_constants
 from glrt.settings import Method, RenderSettings, Reuse, Settings
 
+EFFECT_BITS = read_constants(read("integrators/effects.glsl"))
 DEPTH_OF_TREE = read_constants(read("integrators/branches.glsl"))["MOST_DEPTH_OF_TREE"]
 
 
@@ -29,6 +30,7 @@ class Traits:
     has_probes: bool = False  # takes indirect light from a grid of probes
     gathers: bool = False  # traces paths to one more matte surface before it reads probes
     resamples: bool = False  # resamples the light of the first matte surface
+    rasters: bool = False  # finds first surfaces by rasterisation, and adds chosen effects of rays
 
     @property
     def uses_lamps(self) -> bool:
@@ -38,7 +40,7 @@ class Traits:
     @property
     def weighs_particles(self) -> bool:
         """Whether the method can weigh paths from lamps together with its own."""
-        return self.weights_both and not self.has_probes
+        return self.weights_both and not self.has_probes and not self.rasters
 
 
 METHODS: dict[str, Traits] = {
@@ -62,16 +64,32 @@ METHODS: dict[str, Traits] = {
         gathers=True,
         resamples=True,
     ),
+    "hybrid": Traits(samples_lights=True, weights_both=True, chooses_lights=True, rasters=True),
 }
 CLASSIC = [name for name, traits in METHODS.items() if traits.model]  # older than path tracing
 # Methods whose picture does not converge to the light of the scene.
-BIASED = [name for name, traits in METHODS.items() if traits.model or traits.has_probes]
+BIASED = [
+    name for name, traits in METHODS.items() if traits.model or traits.has_probes or traits.rasters
+]
 
 if list(METHODS) != list(get_args(Method)):
     raise TypeError(f"methods have rows {list(METHODS)}, and settings {get_args(Method)}")
 
 TEMPORAL: tuple[Reuse, ...] = ("temporal", "both")  # reuse what the pixel has kept
 SPATIAL: tuple[Reuse, ...] = ("spatial", "both")  # reuse what pixels around have kept
+
+
+def traits_of(settings: RenderSettings) -> Traits:
+    """Return the traits of the method with these settings.
+
+    The effects of method hybrid decide whether it has probes. Without shadows, no scattered ray
+    competes with the samples of lamps, since it would find them hidden.
+    """
+    traits = METHODS[settings.method]
+    if not traits.rasters:
+        return traits
+    has_gi, has_shadows = "gi" in settings.effects, "shadows" in settings.effects
+    return replace(traits, has_probes=has_gi, weights_both=has_shadows)
 
 
 def depth_of(settings: RenderSettings) -> int:
@@ -89,3 +107,11 @@ def has_ambient(settings: Settings) -> bool:
     """Return whether surfaces send ambient light of their own, which belongs to no lamp."""
     phong = settings.phong if METHODS[settings.method].has_constants else None
     return phong is not None and phong.ambient is not None
+
+
+def effect_bits(settings: RenderSettings) -> int:
+    """Return the bits of the effects of method hybrid for shaders; 0 for other methods."""
+    if not METHODS[settings.method].rasters:
+        return 0
+    bits = (EFFECT_BITS[effect.upper()] for effect in settings.effects)
+    return EFFECT_BITS["BY_CHOICE"] | sum(bits)

@@ -3,11 +3,11 @@
 from collections.abc import Iterator
 
 from glrt.plan.facts import SceneFacts
-from glrt.plan.methods import CLASSIC, METHODS, has_ambient, reuses_points
+from glrt.plan.methods import CLASSIC, METHODS, has_ambient, reuses_points, traits_of
 from glrt.plan.probe_grid import grid_of
 from glrt.scene.materials.kinds import glass_of
 from glrt.scene.shapes.kinds import KINDS
-from glrt.settings import Settings
+from glrt.settings import EFFECTS, Settings
 
 
 def omissions(facts: SceneFacts, settings: Settings) -> list[str]:
@@ -15,7 +15,9 @@ def omissions(facts: SceneFacts, settings: Settings) -> list[str]:
 
     Light beyond the limit of bounces is not listed.
     """
-    if METHODS[settings.method].has_probes:
+    if METHODS[settings.method].rasters:
+        return list(_without_effects(facts, settings))
+    if traits_of(settings).has_probes:
         return list(_blurred(facts, settings))
     if settings.method not in CLASSIC:
         return []
@@ -33,6 +35,33 @@ def _phong(facts: SceneFacts, settings: Settings) -> Iterator[str]:
         yield "metal and principled surfaces reflect as matte ones do"
     if phong.specular is not None and kinds:
         yield "highlights are white and alike on all surfaces"
+
+
+def _without_effects(facts: SceneFacts, settings: Settings) -> Iterator[str]:
+    """Yield what method hybrid leaves out without some of its effects, and what its probes blur."""
+    scene, effects = facts.scene, settings.effects
+    kinds = {material.type for material in facts.materials.values()}
+    is_alone = len(scene.visible) < 2
+    lamps = {shape.shape for shape in scene.visible if scene.finish(shape).group}
+    if "gi" in effects:
+        yield from _blurred(facts, settings)
+    elif "lambertian" in kinds:
+        yield "no indirect light on matte surfaces"
+    if "shadows" not in effects:
+        if (lamps or any(scene.sun_radiance)) and not is_alone:
+            yield "no shadows"
+        for kind in KINDS:
+            if kind in lamps and kind not in facts.sampled:
+                yield f"{kind} lamps light nothing"
+    if "reflections" not in effects and kinds & {"metal", "dielectric"}:
+        yield "mirrors and glass reflect nothing"
+    if "reflections" not in effects and kinds & {"metal", "principled"}:
+        yield "rough metal and principled surfaces reflect lamps and the background alone"
+    if "refractions" not in effects and any(map(glass_of, facts.materials.values())):
+        yield "glass shows nothing behind it"
+    is_open = "ambient_occlusion" not in effects and not is_alone
+    if is_open and any(map(any, scene.background_colors)):
+        yield "nothing hides the sky"
 
 
 def _blurred(facts: SceneFacts, settings: Settings) -> Iterator[str]:
@@ -103,7 +132,8 @@ def _omissions(facts: SceneFacts, method: str, is_ambient: bool) -> Iterator[str
 
 def left_out(settings: Settings, missing: list[str]) -> str:
     """Return a sentence that names what `omissions` found."""
-    what = "blurs light" if METHODS[settings.method].has_probes else "leaves light out"
+    is_whole = not METHODS[settings.method].rasters or settings.effects == EFFECTS
+    what = "blurs light" if traits_of(settings).has_probes and is_whole else "leaves light out"
     return (
         f"Method {settings.method} {what}, which no estimated error contains: {'; '.join(missing)}."
     )

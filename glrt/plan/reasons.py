@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 
 from glrt.core.text import counted
 from glrt.plan.case import Case
-from glrt.plan.facts import ENDLESS, MESH, REST_FROM, SPHERES_FROM, TREE_FROM, SceneFacts
+from glrt.plan.facts import ENDLESS, MESH, MOST_NEAR, REST_FROM, SPHERES_FROM, TREE_FROM, SceneFacts
 from glrt.plan.methods import CLASSIC
 from glrt.scene.shapes.kinds import KINDS
 from glrt.scene.summary import few
@@ -102,6 +102,11 @@ def lamps(case: Case) -> str:
         if count
     )
     return ", ".join(named) or "no lamp"
+
+
+def in_clusters(case: Case) -> str:
+    """Return the lamps, and from which number on they form clusters."""
+    return f"{lamps(case)}; from {MOST_NEAR + 1} on"
 
 
 def sphere_tree(case: Case) -> str:
@@ -204,6 +209,22 @@ def model(case: Case) -> str:
     """Return whether the method traces paths."""
     traces = case.settings.method not in CLASSIC
     return f"{by_method(case)}{' traces paths' if traces else ', which leaves light out'}"
+
+
+def effects(case: Case) -> str:
+    """Return the effects of rays of method hybrid."""
+    if not case.traits.rasters:
+        return by_method(case)
+    return f"{by_method(case)}, effects {', '.join(case.settings.effects) or 'none'}"
+
+
+def raster(case: Case) -> str:
+    """Return the method, and why it traces rays to first surfaces instead."""
+    if case.traits.rasters and not case.rasters:
+        has_lens = case.scene.camera.defocus_angle > 0
+        why = lens(case) if has_lens else coincident(case)
+        return f"{by_method(case)}, {why}: first surfaces are traced"
+    return by_method(case)
 
 
 def turns(case: Case) -> str:

@@ -15,6 +15,7 @@ Modules, each importing only what stands above it:
 - probe_weights: weight of an update of probes
 - probe_tracer: gathers light of probes
 - probe_supply: probes of the next samples
+- raster: first surfaces by rasterisation
 - screen: film, AOVs and probes drawn for the screen
 - tracer: adds samples to a film
 - paths: single paths, recorded and replayed

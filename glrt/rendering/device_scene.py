@@ -10,14 +10,17 @@ import numpy as np
 from glrt.core.errors import RenderError, SceneError
 from glrt.gpu.context import Context
 from glrt.gpu.glsl import Source
-from glrt.gpu.program import FragmentKernel, Images, Kernel, Resource
+from glrt.gpu.program import Images, Resource
+from glrt.gpu.programs import AnyKernel
 from glrt.gpu.shared_resources import Shared
 from glrt.gpu.struct_arrays import FILE, Arrays, block_of, write_rows
+from glrt.packing.drawn_triangles import drawn_triangles
 from glrt.packing.image_texture import ImageTexture
 from glrt.packing.kernel_structs import STRUCTS
 from glrt.packing.particles import with_particles
 from glrt.packing.scene_arrays import Dispatch, pack_frame, pack_scene
 from glrt.packing.scene_tree import SceneTree, tree_of
+from glrt.packing.shapes import NUMBERED
 from glrt.packing.sky_table import SkyTable
 from glrt.packing.texel_texture import TexelTexture
 from glrt.packing.texture_maps import images_of, textures_of
@@ -128,6 +131,22 @@ class DeviceScene:
         """The shader sources of another pass over the scene."""
         return sources(self._options.pipeline, self._constants, self._texts, render_pass)
 
+    @property
+    def drawn_triangles(self) -> np.ndarray[Any, Any]:
+        """Where each triangle lies, in the order of drawing: see packing/drawn_triangles.py."""
+        slots = self._arrays["Slot"]
+        return drawn_triangles(slots, self._tree.own.bases.slots if self._tree else len(slots))
+
+    @property
+    def proxies(self) -> int:
+        """Number of shapes; meshes among them have no proxy."""
+        return sum(self._counts[struct] for struct in NUMBERED)
+
+    def raster_sources(self) -> list[Source]:
+        """The shader sources that draw its first surfaces."""
+        names, version = ("raster.vert", "raster.frag"), "410 core"
+        return [Source(name, self._constants, version, self._texts) for name in names]
+
     def has_kernel_of(self, other: "DeviceScene") -> bool:
         """Whether both scenes can use the same kernel: equal constants and equal texts."""
         return (self._constants, self._texts) == (other._constants, other._texts)
@@ -138,7 +157,7 @@ class DeviceScene:
 
     def dispatch(
         self,
-        kernel: Kernel | FragmentKernel,
+        kernel: AnyKernel,
         film: Exposed,
         plan: Plan,
         part: DispatchRange,

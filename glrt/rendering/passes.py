@@ -17,7 +17,8 @@ Resolved = Literal["compute", "fragment"]
 Constants = Mapping[str, bool | int]
 NO_CONSTANTS: Constants = {}
 NO_REUSE: Constants = {"REUSES_OWN": False, "REUSES_NEAR": 0}
-FROM_PROBES: Constants = {"FROM_PROBES": True, "RESAMPLES": False, **NO_REUSE}
+ALL_EFFECTS: Constants = {"EFFECTS": 0}  # what lights probes is traced in full
+FROM_PROBES: Constants = {"FROM_PROBES": True, "RESAMPLES": False, **NO_REUSE, **ALL_EFFECTS}
 
 AOV_NUMBERS = read_constants(read("integrators/aov_numbers.glsl"))
 

@@ -118,6 +118,8 @@ def sources(
     """The shaders of a pass for a scene; `texts` replace shader files, by name."""
     version = "430 core" if pipeline == "compute" else "410 core"
     prelude = {**constants, **render_pass.constants}
+    if render_pass != RADIANCE:  # others trace their camera rays: the same surfaces, to the bit
+        prelude["RASTERS"] = False
     return [Source(file, prelude, version, texts) for file in render_pass.shaders[pipeline]]
 
 

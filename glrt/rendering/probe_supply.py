@@ -7,7 +7,7 @@ import numpy as np
 from glrt.core.errors import UsageError
 from glrt.gpu.context import Context
 from glrt.gpu.program import Resource
-from glrt.plan.methods import METHODS
+from glrt.plan.methods import traits_of
 from glrt.plan.plan import Plan
 from glrt.rendering.device_scene import DeviceScene
 from glrt.rendering.probe_tracer import ProbeTracer
@@ -35,7 +35,7 @@ class ProbeSupply:
         self._plan, self._block = plan, plan.settings.block
         self.hysteresis, self._is_due = hysteresis, True
         self.tracer: ProbeTracer | None = None
-        if METHODS[plan.settings.method].has_probes:
+        if traits_of(plan.settings).has_probes:
             known, follows = before.tracer if before else None, hysteresis is not None
             self.tracer = ProbeTracer(context, plan, scene, known, follows)
         self._old = np.zeros(self.tracer.grid.probes if self.tracer else 0)  # lag of each probe

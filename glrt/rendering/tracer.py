@@ -22,6 +22,7 @@ from glrt.rendering.particle_tracer import Losses, ParticleTracer, particles_for
 from glrt.rendering.pass_film import Array
 from glrt.rendering.pipelines import KernelOptions, Tier
 from glrt.rendering.probe_supply import ProbeSupply
+from glrt.rendering.raster import Raster
 from glrt.rendering.schedule import (
     HEADLESS,
     DispatchPolicy,
@@ -62,8 +63,7 @@ class Tracer:
             self.device_scene: DeviceScene = scene
             refused.callback(scene.release)
             extent = Extent(*settings.size, settings.block, plan.layers, scene.keeps_reservoirs)
-            known = before if before and scene.has_kernel_of(before.device_scene) else None
-            probes = known.probes if known else None
+            probes = before.probes if before and scene.has_kernel_of(before.device_scene) else None
             self.probes: ProbeSupply = ProbeSupply(context, plan, scene, probes, hysteresis)
             refused.callback(self.probes.release, probes)
             if before and before.film.extent == extent:
@@ -73,6 +73,9 @@ class Tracer:
                 refused.callback(self.film.release)
             if before:
                 before.switch.schedule.drop()  # the first dispatch writes to its frame
+            self._raster = Raster(context, plan, scene)
+            refused.callback(self._raster.release)
+            self.most_samples = self._raster.at_once(self.most_samples)
             self.switch: KernelSwitch = self._compiled()
             refused.callback(self.switch.release)
             self.particles: ParticleTracer | None = particles_for(context, plan, scene)
@@ -106,10 +109,7 @@ class Tracer:
 
     @property
     def tier(self) -> str:
-        """Tier of the kernel that added samples; two tiers if both kernels did.
-
-        Both kernels give the same bits on software drivers: there it is the tier that stays.
-        """
+        """Tier of the kernels that added samples; on software drivers both give the same bits."""
         if self._context.is_software or not self._tiers:
             return self.device_scene.tier
         return " and ".join(sorted(self._tiers))
@@ -241,10 +241,9 @@ class Tracer:
 
     def _release_own(self) -> None:
         """Release what no other tracer takes over."""
-        if self.particles:
-            self.particles.release()
-        self.switch.release()
-        self.device_scene.release()
+        for part in (self.particles, self._raster, self.switch, self.device_scene):
+            if part:
+                part.release()
 
     def _aovs_for(self, settings: Settings, before: "Tracer | None" = None) -> AovTracer:
         """The AOV tracer for settings: that of `before` if it serves them, else a new one."""
@@ -297,4 +296,5 @@ class Tracer:
 
     def _dispatch(self, kernel: AnyKernel, part: DispatchRange) -> None:
         own = self.probes.resources | self.film.resources
+        own |= self._raster.drawn(self.film, part.samples)
         self.device_scene.dispatch(kernel, self.film, self._plan, part, self._tiles, own)

@@ -3,13 +3,7 @@
 // Scattering that meets a lamp and sampling of lamps find the same light; METHOD says how they share
 // it. naive: scattering alone. nee: sampling, where its density is not 0. mis: both, weighted by the
 // power heuristic (Veach 1997, eq. 9.14). The other methods end where light is not followed
-// (integrators/classic.glsl).
-
-// Weight of light sampled on a lamp; `scattered`: the density with which scattering would have met it.
-float weight_of_sample(LightSample light, float scattered, float rho) {
-    if (HAS_PARTICLES && rho > 0.0) return sample_beside_particles(light, scattered, rho);
-    return power_heuristic(light.pdf, scattered);
-}
+// (integrators/classic.glsl, integrators/effects.glsl).
 
 // The share of emission that scattering may count. `pdf`: density of the scattered ray; 0 if the ray
 // comes from the camera or a delta.
@@ -20,28 +14,6 @@ float emission_weight(Ray ray, Hit hit, int light, float pdf, float lamps) {
     float weight = WEIGHT_BOTH ? power_heuristic(pdf, light_pdf) : 0.0;
     record_weight(light_pdf, weight);
     return weight;
-}
-
-// Direct light from one sampled point, scattered towards wo; `rho`: see Rivals.
-vec3 direct_light(Vertex vertex, LightSample light, float rho) {
-    if (light.pdf == 0.0 || is_dark(light)) return vec3(0.0);
-    vec3 wi = to_local(vertex.frame, light.ray.direction);
-    bool crosses = is_rough_glass(vertex.material) && wi.z < 0.0;
-    if (wi.z <= 0.0 && !crosses) return vec3(0.0);
-    if (crosses) light.ray.inward = !light.ray.inward;
-    vec3 weight = eval_material(vertex, wi) / light.pdf;
-    if (WEIGHT_BOTH) {
-        float scattered = pdf_material(vertex, wi);
-        float share = weight_of_sample(light, scattered, rho);
-        record_weight(scattered, share);
-        weight *= share;
-    }
-    if (!HAS_MEDIA && occluded(light.ray, light.distance, light.shape)) {
-        record_shadow();
-        return vec3(0.0);
-    }
-    vec3 radiance = weight * light.radiance;
-    return radiance;
 }
 
 // The end of a path in the classic models: adds the light of the lamps and of a sky that nothing hides.
@@ -59,7 +31,7 @@ void shade(inout Path path, Vertex vertex, Ray from, inout Sampler rng) {
     if (LAMP_KINDS == 0) return;
     if (MODEL == COOK) {
         LightSample light = sample_light(from, total_weight(from), rng);
-        vec3 direct = weight * direct_light(vertex, light, 0.0);
+        vec3 direct = weight * direct_light(vertex, light, 0.0, false);
         if (LIGHT_TERMS != 0) sort_by_surface(path, vertex, light.ray.direction, light.pdf, false);
         gather(path, direct, light.layer, path.depth + 1);
         return;
@@ -125,7 +97,7 @@ void gather_sampled(inout Path path, Meeting at, LightSample light, int source) 
     float along = dot(light.ray.direction, at.vertex.frame[2]);
     if (HAS_SHADING && height * along <= 0.0) light.pdf = 0.0;
     float rho = path.rivals.rho * path_turn(path, at, light.ray.direction, links_at(path, at.vertex));
-    vec3 direct = path.scale * path.throughput * direct_light(at.vertex, light, rho);
+    vec3 direct = path.scale * path.throughput * direct_light(at.vertex, light, rho, source == FROM_BACKGROUND);
     if (HAS_ATTENUATION) direct *= share_left(along < 0.0 ? at.behind : path.absorption, light.distance);
     if (HAS_MEDIA && direct != vec3(0.0)) {
         light.ray.inward = light.ray.inward != (along < 0.0);
@@ -156,6 +128,7 @@ float sky_weight(Path path) {
 // Adds the light of the sky where a path leaves the scene.
 void gather_sky(inout Path path) {
     if (!HAS_BACKGROUND) return;
+    if (CHOSEN && path.asking.is_open) return;
     vec3 radiance = background(path.ray.direction);
     vec3 light = path.scale * path.throughput * radiance;
     if (HAS_ATTENUATION) light *= share_left_of_sky(path.absorption);
@@ -214,6 +187,15 @@ void gather_emission(inout Path path, Surface surface, Material material, float 
     gather(path, light, material.layer, path.depth);
 }
 
+// Whether the path ends here. Else, if only direct light of this surface is still sought, the next segment is the last.
+// Probes may have said so before; where they cannot be asked, the path goes on.
+bool is_last_vertex(inout Path path, Material material) {
+    if (!ends_paths(material)) return false;
+    if (!HAS_PROBES || material.kind != MATTE) path.asking.is_done = true;
+    bool is_sought = has_effect(SHADOWS) || has_effect(AMBIENT_OCCLUSION);
+    return path.asking.is_done && (!is_sought || is_delta(material));
+}
+
 // Gathers direct light at a surface, then scatters the path there; false when the path ends.
 bool scatter_path(inout Path path, Surface surface, Material whole, inout Sampler rng) {
     leave_vertex(rng.seed, path.depth + 1);
@@ -228,12 +210,21 @@ bool scatter_path(inout Path path, Surface surface, Material whole, inout Sample
     bool resamples = begins_resampling(path, material);
     if (resamples) begin_resampling(path, at.vertex, at.ray);
     gather_direct(path, at, resamples, rng);
+    gather_open_sky(path, at.vertex);
     gather_from_probes(path, at.vertex, surface.position, rng);
+    if (is_last_vertex(path, material)) {
+        record_end(END_ABSORBED);
+        return false;
+    }
     Scattering next;
     if (MODEL == WHITTED_TREE && is_split(material)) next = split_path(path, at);
     else next = sample_material(at.vertex, rng);
     record_scattering(at.vertex.frame[2], next.direction, next.pdf, next.crosses);
     if (LIGHT_TERMS != 0) sort_by_surface(path, at.vertex, next.direction, next.pdf, next.crosses);
+    if (is_left_out(material, next.crosses)) {
+        record_end(END_ABSORBED);
+        return false;
+    }
     if (is_lost(at, next)) {
         record_end(END_BELOW_SURFACE);
         return false;
@@ -261,7 +252,7 @@ bool scatter_path(inout Path path, Surface surface, Material whole, inout Sample
 // Follows one segment; false when the path ends with it.
 bool extend_path(inout Path path, inout Sampler rng) {
     if (path.passed.holes == 0u) leave_vertex(rng.seed, path.depth);
-    Hit hit = closest_hit(path.ray);
+    Hit hit = next_hit(path.ray, path.depth);
     if (HAS_MEDIA && collides(path, hit.distance)) return scatter_in_medium(path, rng);
     if (hit.shape == NO_SHAPE) {
         if (HAS_MEDIA) land(path);
@@ -286,9 +277,9 @@ bool extend_path(inout Path path, inout Sampler rng) {
         return true;
     }
     if (HAS_MEDIA) land(path);
-    gather_emission(path, surface, material, share);
+    if (!CHOSEN || !path.asking.is_done || has_effect(SHADOWS)) gather_emission(path, surface, material, share);
     meet_second(path, surface, material);
-    if (path.depth == frame.bounces || HAS_PROBES && path.asking.is_done) {
+    if (path.depth == frame.bounces || (HAS_PROBES || CHOSEN) && path.asking.is_done) {
         record_end(END_BOUNCE_LIMIT);
         return false;
     }

@@ -16,7 +16,8 @@ struct Rivals {
 // Probes, which replace the rest of the path.
 struct Asking {
     bool is_due;   // whether the next matte surface asks probes
-    bool is_done;  // whether probes were asked: the next segment is the last
+    bool is_done;  // whether probes were asked, or the rest is left out: the next segment is the last
+    bool is_open;  // whether the background has lit the last surface already
 };
 
 struct Path {
@@ -44,7 +45,7 @@ Path start_path(Ray ray) {
     Passed passed = Passed(0u, ray, 0.0);
     Rivals rivals = Rivals(0.0, start_chain(ray));
     Flight flight = start_flight(HAS_MEDIA ? frame.camera_medium : NO_MEDIUM);
-    Asking asking = Asking(!FINAL_GATHER || FROM_PROBES, false);
+    Asking asking = Asking(!FINAL_GATHER || FROM_PROBES, false, false);
     return Path(ray, vec3(1.0), 1.0, vec3(0.0), 0.0, 0.0, 0, absorption, counts, passed, rivals, asking, flight,
                 no_approach(), NO_LAYERS, no_terms());
 }

@@ -44,6 +44,7 @@ def test_every_shader_file_is_compiled_by_a_test() -> None:
         *("integrators/particle_start.glsl", "integrators/camera_links.glsl"),
         *("trace.comp", "paths.comp", "structs/path_records.glsl"),
         *("passes/tiles.glsl", "passes/tonemap.glsl", "sampling/other_hash.glsl"),
+        *("raster.glsl", "raster.vert", "raster.frag"),  # by tests/rendering/test_raster.py
         *("trace.vert", "trace.frag", "weighting.frag", "false_colors.frag"),
         *("surfaces.glsl", "surfaces.comp", "surfaces.frag", "integrators/middle_ray.glsl"),
         *("integrators/middle_surface.glsl", "passes/surface_flags.glsl"),

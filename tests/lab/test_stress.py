@@ -45,7 +45,7 @@ SLOW = (  # more than a second each, or many kernels
     *("near", "refracted", "slats", "contact", "leak", "wall", "rooms", "point", "polish"),
     *("stripes", "thin", "layers", "speed", "reflection", "rough", "step"),
     *("flicker", "frosted", "denoised", "uncovered", "lag", "bright"),
-    *("sun", "frames", "bumps", "plastic", "fireflies", "ior"),
+    *("drawn", "sun", "frames", "bumps", "plastic", "fireflies", "ior"),
 )
 SWEEP = Sweep(
     parameter="size",

@@ -26,7 +26,8 @@ from glrt.plan.combinations import (
     reason,
     works,
 )
-from tests.support.ways import OPTIONS, SIZE, Options, merged, plain, relit, try_together
+from tests.support.ways import OPTIONS, SIZE, Options, merged, plain, relit
+from tests.support.ways_together import try_together
 
 
 @pytest.fixture
@@ -62,7 +63,7 @@ REFUSED = [pair for pair in pairs() if not works(*pair)]
     "reuse of points---denoise",
     "reuse of points---error",
 )
-@pytest.mark.slow_cases("*--caustics*", "a merged picture-*", "*terms of light*")
+@pytest.mark.slow_cases("*--caustics*", "a merged picture-*", "*terms of light*", "*hybrid*")
 @pytest.mark.slow_cases(
     "light by layers---*", "a classic lighting model---*", "the independent*---*"
 )
@@ -93,6 +94,7 @@ NEVER_ASKED = [  # no command line does
     {Way.CLASSIC, Way.PROBES},
     {Way.AUTO, Way.REUSE},
     {Way.CLASSIC, Way.REUSE},
+    *({Way.HYBRID, other} for other in (Way.AUTO, Way.CLASSIC, Way.REUSE)),
     {Way.PARTICLES, Way.PILOT},
 ]
 

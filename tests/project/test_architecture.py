@@ -36,7 +36,7 @@ ENTRIES |= {"surfaces.comp", "surfaces.frag", "edges.frag", "reproject.frag", "f
     *("evidence.frag", "taa.frag", "ataa_mask.frag", "ataa.frag", "gather.comp", "more.comp"),
     *(f"probe_{name}.comp" for name in ("rays", "light", "distances", "place")),
     *("probe_balls.vert", "probe_balls.frag"),
-    *("silhouette.vert", "silhouette.frag", "silhouette_line.frag"),
+    *("silhouette.vert", "silhouette.frag", "silhouette_line.frag", "raster.vert", "raster.frag"),
     *("bring_models.frag", "reconstruct.frag", "predict.frag", "predictions.frag"),
 }
 NOT_OF_A_PATH = {
@@ -46,7 +46,7 @@ NOT_OF_A_PATH = {
     "aov.glsl",
     "structs/scene.glsl",
 } | {"shapes/all_shapes.glsl", "surfaces.glsl", "passes/reprojection.glsl"}
-NOT_OF_A_PATH |= {"passes/probe_balls.glsl"}
+NOT_OF_A_PATH |= {"passes/probe_balls.glsl", "raster.glsl"}
 NOT_OF_A_PATH |= {
     f"temporal/{name}.glsl" for name in ("least_squares", "wrls", "wrls_rows", "taa", "ataa")
 }

@@ -26,7 +26,8 @@ PIPELINES: tuple[Resolved, ...] = "compute", "fragment"
 WARP = "sampling/warp.glsl"
 ES = "320 es"  # knows no implicit conversion
 PRECISIONS = " ".join(
-    f"precision highp {kind};" for kind in ("float", "int", "image2D", "sampler2D", "usampler2D")
+    f"precision highp {kind};"
+    for kind in ("float", "int", "image2D", "sampler2D", "isampler2D", "usampler2D")
 )
 DRAWN = (
     "display.frag",
@@ -85,6 +86,13 @@ def test_aovs_are(aovs: tuple[Aov, ...]) -> None:
         for shader in sources(pipeline, EVERYTHING, written_for(), aov_pass(aovs))
     ]
     assert [line for shader in shaders for line in objections(shader)] == []
+
+
+@pytest.mark.parametrize("features", SETS)
+@pytest.mark.parametrize("entry", ["raster.vert", "raster.frag"])
+def test_rasters_are(entry: str, features: str) -> None:
+    shader = Source(entry, FEATURE_SETS[features], "410 core", written_for())
+    assert list(objections(shader)) == []
 
 
 def test_particles_and_records_of_paths_are() -> None:

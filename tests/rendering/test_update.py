@@ -61,6 +61,7 @@ CHANGES: dict[str, Any] = {
     "samples": 7,
     "bounces": 3,
     "method": "nee",
+    "effects": ("shadows",),
     "phong": Phong(diffuse=0.5),
     "sampler": "sobol",
     "crop": (2, 3, 5, 7),

@@ -3,11 +3,9 @@
 from collections.abc import Callable
 
 import numpy as np
-import pytest
 
 from glrt import Renderer, load, merge
 from glrt.cli.commands import run
-from glrt.core.errors import UsageError
 from glrt.image.image import Image
 from glrt.plan.combinations import Way
 from glrt.scene.scene import with_lights
@@ -28,6 +26,7 @@ OPTIONS: dict[Way, Options] = {
     Way.CLASSIC: ["--method", "phong"],
     Way.PROBES: ["--method", "ddgi", "--probes", "2"],
     Way.REUSE: ["--method", "resampled", "--reuse", "both", "--probes", "2"],
+    Way.HYBRID: ["--method", "hybrid", "--effects", "shadows,reflections"],
     Way.PARTICLES: ["--caustics", "on"],
     Way.PILOT: ["--caustics", "auto"],
     Way.DENOISE: ["--denoise", "nlm"],
@@ -216,84 +215,11 @@ LAWS: dict[Way, Callable[[Render], None]] = {
     Way.TERMS: terms_law,
     Way.FRAGMENT: fragment_law,
     Way.INDEPENDENT: noise_law(Way.INDEPENDENT, 512),
-    **{way: method_law(way) for way in (Way.CLASSIC, Way.PROBES, Way.REUSE)},
+    **{way: method_law(way) for way in (Way.CLASSIC, Way.PROBES, Way.REUSE, Way.HYBRID)},
     Way.PARTICLES: noise_law(Way.PARTICLES, 2048),
     Way.PILOT: pilot_law,
     Way.DENOISE: denoise_law,
     Way.AUTO: auto_law,
     Way.TIME: limit_law(Way.TIME),
     Way.ERROR: limit_law(Way.ERROR),
-}
-
-
-def try_together(one: Way, other: Way) -> None:
-    """The law of one under the other."""
-    if special := SPECIAL.get(frozenset({one, other})):
-        return special()
-    for way, more in ((one, other), (other, one)):
-        if way in BASES:
-            return LAWS[more](BASES[way])
-        if way in ALONE:
-            return ALONE[way](OPTIONS[more])
-    if one is Way.AUTO and other is Way.TIME:
-        return LAWS[Way.AUTO](lambda options: plain([*timed(options), *options]))
-    if {one, other} == {Way.TIME, Way.ERROR}:
-        return LAWS[Way.ERROR](lambda options: plain([*timed(options), *options]))
-    return LAWS[other](lambda options: plain([*OPTIONS[one], *options]))
-
-
-def timed(options: Options) -> Options:
-    """A limit of time that is not reached, unless the samples are given."""
-    return [] if "--samples" in options else ["--time", "1e6"]
-
-
-def part_of_a_merged_picture() -> None:
-    whole = parts([])
-    merge(whole).save("merged.exr")
-    assert same(rendered("merged.exr", "--part", "2/3"), whole[1])
-
-
-def resume_a_part() -> None:
-    whole = parts([])[1]
-    size = {"width": 16, "height": 12, "bounces": 4, "samples": 60}
-    renderer = Renderer(load("cornell"), part=(2, 3), tier="baked", **size)  # type: ignore[arg-type]
-    renderer.render(5).image().save("begun.exr")
-    renderer.release()
-    assert same(rendered("--resume", "begun.exr"), whole)
-
-
-def resume_reuse() -> None:
-    """Whole blocks of 16 samples go on; others lack the points that samples share."""
-    options = OPTIONS[Way.REUSE]
-    plain([*options, "--samples", "24"]).save("half.exr")
-    with pytest.raises(UsageError, match=r"half\.exr.*ends within a block of 16 samples"):
-        run(["render", "--resume", "half.exr", "--samples", "64", "-o", "never.exr"])
-    plain([*options, "--samples", "32"]).save("half.exr")
-    assert same(rendered("--resume", "half.exr", "--samples", "64"), plain(options))
-
-
-def resume_denoised() -> None:
-    """The halves are those of one render, up to the rounding of float32."""
-    whole = plain([*OPTIONS[Way.DENOISE], "--samples", "128"])
-    plain(OPTIONS[Way.DENOISE]).save("half.exr")
-    found = rendered("--resume", "half.exr", "--samples", "128")
-    assert same(found, whole)
-    np.testing.assert_allclose(found.shown, whole.shown, rtol=1e-3, atol=1e-4)
-    assert found.error_to_reach == pytest.approx(whole.error_to_reach, rel=1e-2)
-
-
-def denoised_in_time() -> None:
-    """The picture is the plain one if it has fewer samples than denoising needs."""
-    options = [*OPTIONS[Way.DENOISE], *OPTIONS[Way.TIME]]
-    image = plain(options)
-    assert (image.denoising is None) == (image.samples < 64)
-    assert same(image, plain(["--samples", str(image.samples)]))
-
-
-SPECIAL: dict[frozenset[Way], Callable[[], None]] = {
-    frozenset({Way.RESUME, Way.PART}): resume_a_part,
-    frozenset({Way.RESUME, Way.REUSE}): resume_reuse,
-    frozenset({Way.RESUME, Way.DENOISE}): resume_denoised,
-    frozenset({Way.DENOISE, Way.TIME}): denoised_in_time,
-    frozenset({Way.MERGED, Way.PART}): part_of_a_merged_picture,
 }

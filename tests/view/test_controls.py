@@ -14,8 +14,9 @@ from glrt.scene.materials.light import Light
 from glrt.scene.materials.metal import Metal
 from glrt.scene.scene import Scene
 from glrt.scene.shapes.sphere import Sphere
-from glrt.settings import Cost, Method, Settings
+from glrt.settings import EFFECTS, Cost, Method, Settings
 from glrt.view.controls import Control, control_of_items, controls_of, replaced
+from glrt.view.state.explanations import EFFECT_TEXTS
 from glrt.view.state.preferences import Preferences
 
 
@@ -37,7 +38,8 @@ def test_a_control_repeats_what_the_model_says() -> None:
 def test_every_setting_has_a_control_but_views_and_a_table_whose_keys_have_some() -> None:
     single = {n for n, f in Settings.model_fields.items() if len(get_args(f.annotation)) == 1}
     names = {control.name for control in controls_of(Settings)}
-    assert names == set(Settings.model_fields) - {"crop", "aov", "phong"} - single
+    assert names == set(Settings.model_fields) - {"crop", "aov", "phong", "effects"} - single
+    assert tuple(EFFECT_TEXTS) == EFFECTS  # which have a switch each
     assert {control.name for control in controls_of(Phong)} == set(Phong.model_fields)
 
 

@@ -15,7 +15,7 @@ from glrt.analysis.chart.page import ending, page, percent, speed_up
 from glrt.analysis.plot import FORMATS, open_figure, save_figure
 from glrt.core import files
 
-MARKERS = "os^Dv<>ph*XPd1+28H34x"
+MARKERS = "os^Dv<>ph*XPd1+28H34x|"
 BLACK, GREY, PALE = "black", "0.62", "0.85"
 SIZE = (12.0, 6.5)  # inches
 FONT = 13  # points

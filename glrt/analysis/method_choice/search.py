@@ -26,7 +26,9 @@ REFERENCE_WORK = 4e9  # most work of the reference: some 6 s on one core of llvm
 REFERENCE_SHARE = 0.25  # most time of the reference, relative to the seconds that are allowed
 # Methods to choose from without asking the user: sets of probes take time to measure, and `error`
 # does not show what probes blur.
-WITHOUT_PROBES = tuple(name for name, traits in METHODS.items() if not traits.has_probes)
+WITHOUT_PROBES = tuple(
+    name for name, traits in METHODS.items() if not (traits.has_probes or traits.rasters)
+)
 TIE = 1.25  # LEADER is chosen if it takes at most this many times the work of the cheapest
 
 

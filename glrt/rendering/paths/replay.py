@@ -17,7 +17,7 @@ from glrt.gpu.context import Choice, Context, open_context
 from glrt.image.particle_film import observations_of
 from glrt.image.recipe import Recipe
 from glrt.plan.combinations import check_render
-from glrt.plan.methods import METHODS
+from glrt.plan.methods import METHODS, traits_of
 from glrt.plan.particles import GROUP as PARTICLE_GROUP
 from glrt.plan.particles import particle_groups
 from glrt.plan.plan import Plan, prepare
@@ -147,7 +147,12 @@ def check_followed(plan: Plan) -> None:
             f"paths are not shown of the method {settings.method}: it is a lighting model, which "
             "sums over all lamps where it ends. Choose naive, nee or mis."
         )
-    if METHODS[settings.method].has_probes:
+    if METHODS[settings.method].rasters:
+        raise UsageError(
+            f"paths are not shown of the method {settings.method}: they begin where a raster finds "
+            "surfaces. Choose naive, nee or mis."
+        )
+    if traits_of(settings).has_probes:
         raise UsageError(
             f"paths are not shown of the method {settings.method}: they end where probes give the "
             "rest of the light. Choose naive, nee or mis."

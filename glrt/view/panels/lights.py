@@ -5,7 +5,7 @@ from functools import partial
 from imgui_bundle import imgui
 
 from glrt.core.memo import kept_for_the_same
-from glrt.plan.methods import METHODS
+from glrt.plan.methods import traits_of
 from glrt.scene.lit_scene import SKY_GROUP
 from glrt.scene.materials.base import Opaque
 from glrt.scene.materials.light import Light
@@ -31,7 +31,7 @@ _MIXED = (
 def draw_lights(app: App) -> None:
     """Draw a slider for each light group, and the colours of its lamps."""
     scene = app.session.scene
-    if METHODS[app.session.settings.method].has_probes:
+    if traits_of(app.session.settings).has_probes:
         imgui.push_text_wrap_pos(0.0)
         imgui.text_disabled(_MIXED)
         imgui.pop_text_wrap_pos()

@@ -8,7 +8,7 @@ from imgui_bundle import imgui
 
 from glrt.core.memo import kept_for_the_same
 from glrt.phong import Phong
-from glrt.plan.methods import METHODS
+from glrt.plan.methods import METHODS, traits_of
 from glrt.plan.plan import MOST_LAYERS
 from glrt.scene.camera import Camera
 from glrt.scene.probes import Probes
@@ -29,6 +29,7 @@ from glrt.view.panels.objects import draw_object
 from glrt.view.panels.pixel_paths import draw_pixel_paths
 from glrt.view.panels.sun import draw_sun
 from glrt.view.state.costs import reach_of_bounces, reach_of_size
+from glrt.view.state.explanations import EFFECT_TEXTS
 from glrt.view.state.preferences import Preferences
 from glrt.view.state.session import Session
 from glrt.view.widgets.cost_badges import COLORS, legend, tag
@@ -48,6 +49,7 @@ OWN = {  # switches of constants, with the values that turning one on sets
     "diffuse": {"diffuse": 1.0},
     "highlights": {"specular": 0.5, "exponent": 32},
 }
+SHOWN_EFFECTS = [switch(name, text, Cost.RECOMPILE) for name, text in EFFECT_TEXTS.items()]
 DISPLAY = ("exposure", "tonemap")
 FRAME: tuple[Literal["width"], Literal["height"]] = ("width", "height")
 CAMERA = {c.name: c for c in controls_of(Camera)}
@@ -134,15 +136,27 @@ def _paths(app: App) -> None:
     if session.layering == "lengths":
         _lengths(session)
     _settings(app, PATHS)
+    if METHODS[session.settings.method].rasters:
+        _effects(session)
     if METHODS[session.settings.method].has_constants:
         _constants(session)
-    if METHODS[session.settings.method].has_probes:
+    if traits_of(session.settings).has_probes:
         _settings(app, PROBES)
         _turns(app)
     if METHODS[session.settings.method].resamples:
         _settings(app, REUSE)
     if session.settings.caustics == "on":
         _settings(app, PARTICLES)
+
+
+def _effects(session: Session) -> None:
+    """Draw a checkbox for each effect of rays of method hybrid."""
+    effects = session.settings.effects
+    for control in SHOWN_EFFECTS:
+        is_on = edited(control, control.name in effects)
+        if is_on is not None:
+            rest = [effect for effect in effects if effect != control.name]
+            session.edit(effects=(*rest, control.name) if is_on else tuple(rest))
 
 
 def _turns(app: App) -> None:

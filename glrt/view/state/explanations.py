@@ -3,6 +3,7 @@
 L is radiance, f the reflectance of a surface (its BSDF), p a density, c the cosine at a surface.
 """
 
+from glrt.settings import Effect
 from glrt.view.controls import Control
 
 EXPLANATIONS: dict[str, str] = {
@@ -13,7 +14,8 @@ EXPLANATIONS: dict[str, str] = {
         "other one. phong, blinn, whitted and cook are models from before path tracing: they leave "
         "light out. ddgi takes light that has come over several surfaces from a grid of probes, "
         "which blurs it; gather does so one matte surface later, and resampled keeps one of the "
-        "points that light the first matte surface."
+        "points that light the first matte surface. hybrid finds the first surface by "
+        "rasterisation, and traces the effects that are chosen below; with all of them it is ddgi."
     ),
     "sampler": (
         "Where the random numbers of a sample come from. independent: noise falls as 1 / sqrt(N). "
@@ -103,3 +105,15 @@ EXPLANATIONS: dict[str, str] = {
 def explanation_of(control: Control) -> str:
     """Return the explanation for a control's name or the last word of its label; "" for none."""
     return EXPLANATIONS.get(control.name) or EXPLANATIONS.get(control.label.rpartition(" ")[2], "")
+
+
+# Switches of method hybrid, by the names of its effects.
+EFFECT_TEXTS: dict[Effect, str] = {
+    "shadows": "a ray to each sampled point of a lamp: what it meets hides the lamp",
+    "reflections": "rays that metal, glass and principled surfaces reflect; without them such "
+    "surfaces show the highlights of lamps alone",
+    "refractions": "rays through glass; without them glass shows nothing that is behind it",
+    "ambient_occlusion": "a ray towards the background, which others may hide; without it the "
+    "whole background lights each surface",
+    "gi": "indirect light of matte surfaces, from a grid of probes as in method ddgi",
+}

@@ -1,6 +1,6 @@
 """Whether a driver has room for the layers of a film, which are side by side in one texture."""
 
-from glrt.plan.methods import METHODS
+from glrt.plan.methods import traits_of
 from glrt.plan.plan import Layering, prepare
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
@@ -23,7 +23,7 @@ class LayerLimits:
         layers = self.layers(scene, settings, layering)
         is_narrow = layers * settings.width <= self.largest and 2 * settings.height <= self.largest
         is_small = layers * settings.width * settings.height < self._refused
-        is_apart = layering == "none" or not METHODS[settings.method].has_probes
+        is_apart = layering == "none" or not traits_of(settings).has_probes
         return is_apart and (not layers or (is_narrow and is_small))
 
     def refuse(self, scene: Scene, settings: Settings, layering: Layering) -> bool:

@@ -1,6 +1,6 @@
 """Live probes: they are kept from picture to picture, as in real-time renderers."""
 
-from glrt.plan.methods import METHODS
+from glrt.plan.methods import traits_of
 from glrt.rendering.probe_supply import HYSTERESIS
 from glrt.settings import Settings
 
@@ -10,7 +10,7 @@ def kept_by_probes(settings: Settings, is_moving: bool) -> float | None:
 
     Probes are live while edits follow one another.
     """
-    return HYSTERESIS if is_moving and METHODS[settings.method].has_probes else None
+    return HYSTERESIS if is_moving and traits_of(settings).has_probes else None
 
 
 def notice_of_lag(lag: float) -> str:
