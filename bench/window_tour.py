@@ -215,7 +215,7 @@ def play(scene: Scene, script: Callable[[Any], Script], **settings: Any) -> None
     """Open a window, continue the script after each frame, and close the window at its end."""
     from glrt.view.window import Window
 
-    window = Window(scene.title or "", scene, settings_for(scene.render, **settings))
+    window = Window("", scene, settings_for(scene.render, **settings))
     window.params.ini_disable = True
 
     def with_defaults() -> Script:
