@@ -30,6 +30,7 @@ Programs, `python -m bench.NAME`; `--help` lists their options:
 - window_tour: frame times of the window, driven by a script
 - drags: whether the picture in the window follows a drag
 - redraw: how much clearer the picture is while the camera moves
+- upsampling: upsampled against enlarged coarse pictures at equal work
 - gallery: every scene that comes with glrt, as pictures and a page of them
 - weekend: writes scenes/weekend.toml
 

@@ -17,6 +17,7 @@ uniform sampler2D history;     // picture that was shown of the view before
 uniform float most;            // samples that history may stand for
 uniform float most_specular;   // the same in mirrors and glass, and out of focus
 uniform float most_at_edges;  // the same where samples may meet another surface, too
+uniform float most_at_lamps;  // the same at edges of lamps; 0: no history there
 uniform float density;         // pixels of the view before for each pixel of this view, at most 1
 
 out vec4 brought;
@@ -28,9 +29,10 @@ void main() {
     vec3 seen = seen_before(surface);
     vec2 place = place_before(seen);
     brought = vec4(0.0);
-    if (place == NO_PLACE || has_flag(facing, LAMP_EDGE)) return;
+    if (place == NO_PLACE || (most_at_lamps <= 0.0 && has_flag(facing, LAMP_EDGE))) return;
     vec4 found = history_at(history, place, surface.w, seen, facing);
     float limit = has_flag(facing, SPECULAR | BLURRED) ? most_specular : most;
     if (has_flag(facing, EDGE)) limit = min(limit, most_at_edges);
+    if (has_flag(facing, LAMP_EDGE)) limit = min(limit, most_at_lamps);
     brought = vec4(found.rgb, min(density * found.a, limit));
 }

@@ -5,6 +5,7 @@ after an interruption; with more rounds, it adds to them.
 """
 
 import argparse
+import itertools
 import math
 import sys
 from collections.abc import Iterator, Sequence
@@ -30,7 +31,9 @@ from glrt.image.sources import STANDARD_INPUT, FileRules, load_recipe
 from glrt.process.command import file_names
 from glrt.process.signals import INTERRUPTED
 from glrt.rendering.history.ataa import CHOICES, SAMPLES
+from glrt.rendering.history.lattice import FACTORS
 from glrt.rendering.history.temporal import Mode, Way
+from glrt.rendering.history.upsample import FACTOR
 from glrt.rendering.history.wrls import Predictor
 from glrt.rendering.probe_supply import HYSTERESIS
 from glrt.rendering.stopping import Interruption
@@ -87,6 +90,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         f"{CHOICES[0]} to {CHOICES[-1]} (default: {SAMPLES})",
     )
     parser.add_argument(
+        "--factor",
+        metavar="K,...",
+        default=str(FACTOR),
+        help="one pixel in K x K is sampled by upsample of --temporal, and a small picture that "
+        "takes as many rays is charted, too; of "
+        f"{', '.join(map(str, FACTORS))} (default: {FACTOR})",
+    )
+    parser.add_argument(
         "--hysteresis",
         metavar="H,...",
         help="with --temporal, chart method ddgi, too: with probes of their own for each picture, "
@@ -105,10 +116,11 @@ _LIMITS = {"height": (8, 4096), "rounds": (2, 1000), "seconds": (0.1, 1e6)}
 def run(arguments: argparse.Namespace) -> int:
     """Write a chart of each scene and one page for all of them; return the exit code."""
     plan, ways, kept = _plan(arguments), _ways(arguments), _hysteresis(arguments)
-    if (curves := len(ways) + len(kept) + bool(kept)) > MOST_CURVES:
+    small = sum(way.mode == "upsample" for way in ways)  # each has an enlarged picture, too
+    if (curves := len(ways) + small + len(kept) + bool(kept)) > MOST_CURVES:
         raise UsageError(
             f"A chart shows at most {MOST_CURVES} curves, and this asks for {curves}: choose fewer "
-            "of --temporal, --predictor, --traced or --hysteresis."
+            "of --temporal, --predictor, --traced, --factor or --hysteresis."
         )
     scenes = _scenes(arguments.scenes, file_rules(arguments))
     page = PAGE if ways else "chart.md"
@@ -210,11 +222,13 @@ def _temporal(
 
 
 def _ways(arguments: argparse.Namespace) -> tuple[Way, ...]:
-    """Return the modes to chart in order: wrls for each predictor, ataa for each sample number."""
+    """Return the modes to chart in order, each with all values of its own option."""
     predictors = _chosen("--predictor", arguments.predictor, get_args(Predictor))
     traced = _chosen("--traced", arguments.traced, tuple(map(str, CHOICES)))
+    factors = _chosen("--factor", arguments.factor, tuple(map(str, FACTORS)))
     modes = _chosen("--temporal", arguments.temporal, get_args(Mode))
-    found = [Way(m, by, int(more)) for m in modes for by in predictors for more in traced]
+    options = [*itertools.product(predictors, map(int, traced), map(int, factors))]
+    found = [Way(mode, *chosen) for mode in modes for chosen in options]
     return tuple({way.name: way for way in found}.values())
 
 

@@ -39,13 +39,13 @@ bool is_there(vec4 there, float object, vec3 seen, vec3 facing) {
 
 // Whether a texel of the view before shows the same surface: the same object, at the same depth, with a similar normal.
 // A texel at an edge also contains light of another surface. Only another texel at an edge may take that light, and
-// none may take light of a lamp.
+// only one at the edge of a lamp may take light of a lamp.
 bool holds(ivec2 texel, float object, vec3 seen, vec4 facing) {
     ivec2 size = textureSize(before_position, 0);
     if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, size))) return false;
     if (!is_there(texelFetch(before_position, texel, 0), object, seen, facing.xyz)) return false;
     vec4 other = texelFetch(before_normal, texel, 0);
-    if (has_flag(other, LAMP_EDGE) || (has_flag(other, EDGE) && !has_flag(facing, EDGE))) return false;
+    if ((has_flag(other, LAMP_EDGE) && !has_flag(facing, LAMP_EDGE)) || (has_flag(other, EDGE) && !has_flag(facing, EDGE))) return false;
     return dot(other.xyz, facing.xyz) >= SAME_NORMAL;
 }
 

@@ -122,7 +122,7 @@ def test_files_hold_the_figures(tmp_path: Path) -> None:
 
 def test_the_command_refuses_modes_that_are_none(tmp_path: Path) -> None:
     with pytest.raises(
-        UsageError, match="--temporal takes reset, reproject, taa, ataa, wrls; got 'blur'"
+        UsageError, match="--temporal takes reset, reproject, taa, ataa, wrls, upsample; got 'blur'"
     ):
         run(["chart", "cornell", "-o", str(tmp_path), "--temporal", "reset,blur"])
 
@@ -133,16 +133,19 @@ def test_the_command_refuses_predictors_that_are_none(tmp_path: Path) -> None:
 
 
 def test_wrls_is_charted_by_each_predictor() -> None:
-    arguments = Namespace(temporal="reset,wrls,reset", predictor="published,delayed", traced="8")
+    arguments = Namespace(
+        temporal="reset,wrls,reset", predictor="published,delayed", traced="8", factor="4"
+    )
     assert [way.name for way in _ways(arguments)] == ["reset", "wrls", "wrls delayed"]
     assert {name: way.predictor for name, way in WAYS.items()} == {
         **dict.fromkeys(("reset", "reproject", "taa", "ataa", "wrls"), "published"),
+        **dict.fromkeys(("upsample", "upsample 2", "upsample 8"), "published"),
         "wrls delayed": "delayed",
     }
 
 
 def test_ataa_is_charted_by_each_number_of_samples() -> None:
-    arguments = Namespace(temporal="taa,ataa", predictor="published", traced="2,8,16")
+    arguments = Namespace(temporal="taa,ataa", predictor="published", traced="2,8,16", factor="4")
     first, *ways = _ways(arguments)
     assert first.mode == "taa"
     assert [(way.name, way.traced) for way in ways] == [("ataa 2", 2), ("ataa", 8), ("ataa 16", 16)]

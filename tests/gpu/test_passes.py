@@ -19,10 +19,17 @@ void main() { data.rgb = expose_and_encode(data.rgb, data.a, int(data.g)); }
 DISPLAYS = [
     *("display", "weighting", "false_colors", "aov_view", "first_surface", "magnify"),
     *("edges", "reproject", "evidence", "fade", "taa", "ataa_mask", "ataa"),
-    *("bring_models", "reconstruct", "predict", "predictions"),
+    *("bring_models", "reconstruct", "predict", "predictions", "upsample"),
 ]
 DISPLAY_STAGES = {"display.vert": VERTEX, "display.frag": FRAGMENT}
-TEMPORAL = ("least_squares", "wrls", "wrls_rows", "taa", "ataa")  # by tests/rendering/history
+TEMPORAL = (
+    "least_squares",
+    "wrls",
+    "wrls_rows",
+    "taa",
+    "ataa",
+    "upsample",
+)  # by tests/rendering/history
 PROBES = {  # by tests/shaders/test_probe_kernels.py
     *("probe_rays.comp", "probe_light.comp", "probe_distances.comp", "probe_place.comp"),
     *("probes/blend.glsl", "probes/first_met.glsl", "probes/place.glsl", "probes/solids.glsl"),
@@ -51,7 +58,7 @@ def test_every_shader_file_is_compiled_by_a_test() -> None:
         *("edges.frag", "reproject.frag", "passes/reprojection.glsl", "fade.frag", "evidence.frag"),
         *("taa.frag", "bring_models.frag", "reconstruct.frag", "predict.frag", "predictions.frag"),
         *(f"temporal/{name}.glsl" for name in TEMPORAL),
-        *("ataa_mask.frag", "ataa.frag", "gather.comp", "more.comp"),
+        *("ataa_mask.frag", "ataa.frag", "upsample.frag", "gather.comp", "more.comp"),
         *("silhouette.vert", "silhouette.frag", "silhouette_line.frag"),  # by tests/view
         *("probe_balls.vert", "probe_balls.frag", "passes/probe_balls.glsl"),
         *DISPLAY_STAGES,

@@ -38,6 +38,7 @@ ENTRIES |= {"surfaces.comp", "surfaces.frag", "edges.frag", "reproject.frag", "f
     *("probe_balls.vert", "probe_balls.frag"),
     *("silhouette.vert", "silhouette.frag", "silhouette_line.frag", "raster.vert", "raster.frag"),
     *("bring_models.frag", "reconstruct.frag", "predict.frag", "predictions.frag"),
+    "upsample.frag",
 }
 NOT_OF_A_PATH = {
     *ENTRIES,
@@ -48,7 +49,8 @@ NOT_OF_A_PATH = {
 } | {"shapes/all_shapes.glsl", "surfaces.glsl", "passes/reprojection.glsl"}
 NOT_OF_A_PATH |= {"passes/probe_balls.glsl", "raster.glsl"}
 NOT_OF_A_PATH |= {
-    f"temporal/{name}.glsl" for name in ("least_squares", "wrls", "wrls_rows", "taa", "ataa")
+    f"temporal/{name}.glsl"
+    for name in ("least_squares", "wrls", "wrls_rows", "taa", "ataa", "upsample")
 }
 
 

@@ -14,6 +14,7 @@ from glrt.analysis.motion.sequences import light_step, orbit
 from glrt.analysis.reference import Budget, Reference, reference_for
 from glrt.gpu.context import Context
 from glrt.rendering.history.temporal import Way
+from glrt.rendering.history.upsample import PAIR
 from glrt.rendering.probe_tracer import LOOKS, PUSHED, UPDATES
 from glrt.scene.scene import Scene
 from glrt.settings import Settings, settings_for
@@ -44,6 +45,16 @@ def by_probes(settings: Settings, hysteresis: Sequence[float]) -> dict[str, Play
     own, alone = settings_for(settings, method="ddgi", sampler="sobol"), Way("reset")
     live = {f"ddgi, live {kept:g}": Played(own, alone, kept) for kept in hysteresis}
     return {"ddgi": Played(own, alone), **live} if live else {}
+
+
+def enlargement(played: Played, rays: Rays) -> Played:
+    """A picture of fewer pixels, a sample of each in a frame, that takes the rays of `upsample`."""
+    settings, k = played.settings, played.way.factor
+    share = (SURFACES + PAIR * rays.sample / k**2) / rays.sample  # of the pixels
+    side = math.sqrt(min(share, 1.0))
+    width, height = (max(1, round(side * pixels)) for pixels in settings.size)
+    reduced = settings_for(settings, width=width, height=height)
+    return Played(reduced, Way("reset"), enlarged=settings.size)
 
 
 class TrackPlan(NamedTuple):
@@ -83,6 +94,9 @@ def tracks_of(
     """
     plain = {way.name: Played(settings, way) for way in plan.ways}
     all_played = plain | by_probes(settings, plan.hysteresis)
+    own = rays_of(scene, settings, context)
+    for one in [one for one in plain.values() if one.way.mode == "upsample"]:
+        all_played[f"enlarged for {one.way.name}"] = enlargement(one, own)
     rays = {one: rays_of(scene, one, context) for one in {p.settings for p in all_played.values()}}
     found = []
     sequences = orbit(scene, FRAMES, DEGREES), light_step(scene, FRAMES, BEFORE, FACTOR)
@@ -129,7 +143,12 @@ def _seen(
         if number in truth:
             squared = truth[number].squared_error(picture)
             own = rays.sample * (samples + more[-1]) + _of_probes(rays, one, number, is_new, frames)
-            yield Seen(1 + number - first, own + found, squared)
+            yield Seen(1 + number - first, (own + found) * _share_of_pixels(one), squared)
+
+
+def _share_of_pixels(one: Played) -> float:
+    """Pixels that are rendered for one that is shown."""
+    return math.prod(one.settings.size) / math.prod(one.enlarged or one.settings.size)
 
 
 def _of_probes(rays: Rays, one: Played, number: int, is_new: bool, frames: Frames) -> float:

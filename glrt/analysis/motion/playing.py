@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from glrt.analysis.motion.sequences import Sequence
 from glrt.gpu.context import Context, Pipeline
 from glrt.rendering.history.temporal import Temporal, Way
+from glrt.rendering.history.upsample import PAIR
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
@@ -24,6 +25,7 @@ class Played(NamedTuple):
     way: Way
     hysteresis: float | None = None  # of live probes
     pipeline: Pipeline = "auto"
+    enlarged: tuple[int, int] | None = None  # width and height that smaller pictures are shown at
 
 
 def play(
@@ -36,11 +38,12 @@ def play(
     """Yield what is on the screen at the end of each frame, with `samples` per pixel and frame.
 
     Frame n takes its random numbers from seed `settings.seed` + n, so that frames have independent
-    noise. `more` receives the samples per pixel that each frame takes in addition to the film. With
-    a hysteresis, probes continue from frame to frame, and each frame restarts the film, whether or
-    not something moves.
+    noise. The mode upsample samples some pixels alone, where it can, and never begins a film.
+    `more` receives the samples per pixel that each frame takes in addition to `samples`, below 0 if
+    it takes fewer. With a hysteresis, probes continue from frame to frame, and each frame restarts
+    the film, whether or not something moves.
     """
-    settings, way, hysteresis, pipeline = played
+    settings, way, hysteresis, pipeline, size = played
     renderer = Renderer(sequence.scenes[0], settings, context, pipeline=pipeline)
     temporal = Temporal(context.gl, way)
     last: Scene | None = None
@@ -50,15 +53,37 @@ def play(
                 temporal.leave(renderer)
                 renderer.update(scene, hysteresis=hysteresis, seed=settings.seed + number)
                 temporal.arrive(renderer)
-            renderer.render(renderer.samples + samples)
+            if temporal.can_upsample(renderer):
+                temporal.upsample(renderer)
+            else:
+                renderer.render(renderer.samples + samples)
             before = temporal.more_samples if scene == last else 0.0
             picture, last = screen_of(renderer, temporal), scene
             if more is not None:
-                more.append(temporal.more_samples - before)
-            yield picture
+                own = _of_lattice(temporal) - samples if temporal.coarse(renderer) else 0.0
+                more.append(temporal.more_samples - before + own)
+            yield enlarged(picture, size) if size else picture
     finally:
         temporal.release()
         renderer.release()
+
+
+def _of_lattice(temporal: Temporal) -> float:
+    """Samples per pixel of a coarse picture."""
+    assert temporal.upsampled
+    return PAIR / temporal.upsampled.last_factor**2
+
+
+def enlarged(picture: Picture, size: tuple[int, int]) -> Picture:
+    """A picture (H, W, 3) in another width and height, linear between its pixels as on a screen."""
+    for axis, wanted in ((1, size[0]), (0, size[1])):
+        given = picture.shape[axis]
+        at = np.clip((np.arange(wanted) + 0.5) * given / wanted - 0.5, 0, given - 1)
+        low = at.astype(int)
+        share = np.expand_dims(at - low, (2, 1 - axis)).astype(np.float32)
+        one, other = (picture.take(np.minimum(low + step, given - 1), axis=axis) for step in (0, 1))
+        picture = one + share * (other - one)
+    return picture
 
 
 def screen_of(renderer: Renderer, temporal: Temporal) -> Picture:

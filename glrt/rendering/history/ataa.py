@@ -10,78 +10,54 @@ import moderngl
 
 from glrt.gpu.canvas import Canvas
 from glrt.gpu.glsl import Source
-from glrt.gpu.program import Images, Kernel
-from glrt.gpu.programs import AnyKernel
+from glrt.gpu.program import Kernel
 from glrt.rendering.history.drawn_pass import DrawnPass
 from glrt.rendering.history.gbuffer import Surfaces
 from glrt.rendering.history.history_filter import Fresh
+from glrt.rendering.history.listed_pixels import ListedPixels
 from glrt.rendering.history.reprojection import between
 from glrt.rendering.history.taa import PUBLISHED, Taa
-from glrt.rendering.kernel_switch import taken
-from glrt.rendering.passes import MORE
 from glrt.rendering.renderer import Renderer
-from glrt.rendering.schedule import DispatchRange
 from glrt.settings import settings_for
 
-GROUP = 64  # pixels of a work group
-GROUPS = 256  # work groups of a dispatch
 OTHER_SEED = 0x5BD1E995  # changes the film's seed, so that these samples have noise of their own
 
 
 class MoreSamples:
     """Traces more samples of the pixels of a mask (shaders_glsl/gather.comp)."""
 
-    samples = next_sample = 0  # required of whatever a kernel fills
-
     def __init__(self, gl: moderngl.Context) -> None:
         """Nothing is compiled or allocated before it is needed."""
         self._gl = gl
-        self._canvas = Canvas(gl, "f4")
+        self._listed = ListedPixels(gl)
         self._gather: Kernel | None = None
-
-    def images(self) -> Images:
-        """The textures by the names of the kernel's image uniforms."""
-        assert self._canvas.texture
-        return {"target_more": self._canvas.texture}
 
     def trace(
         self, renderer: Renderer, mask: moderngl.Texture, samples: int
     ) -> tuple[moderngl.Texture, int]:
         """Texture of radiance, a: samples, valid at the mask's pixels; and the number of those."""
-        scene, size = renderer.device_scene, mask.size
-        seed = renderer.settings.seed ^ OTHER_SEED
+        size, seed = mask.size, renderer.settings.seed ^ OTHER_SEED
         settings = settings_for(renderer.settings, seed=seed)
         plan = replace(renderer.plan, settings=settings)
         samples = min(samples, renderer.most_samples)
-        self._canvas.sized(size).clear()
+        self._listed.clear(size)
         pixels = self._gl.buffer(bytes(4 * (1 + size[0] * size[1])))
-
-        def dispatch(kernel: AnyKernel, part: DispatchRange) -> None:
-            own = {**renderer.probes.resources, "List": pixels}
-            scene.dispatch(kernel, self, plan, part, GROUPS, own)
-
         try:
             self._gather = self._gather or Kernel(self._gl, Source("gather.comp"))
             self._gather.bind({"List": pixels, "mask": mask}, {})
             self._gather.run(*size)
             count = int.from_bytes(pixels.read(4), "little")
-            groups = -(-count // GROUP)
-            with taken(renderer.context, scene.shaders_of(MORE), dispatch) as kernel:
-                for first in range(0, groups, GROUPS):
-                    dispatch(kernel, DispatchRange(samples, first, min(GROUPS, groups - first)))
-                    renderer.context.finish()
-            scene.lost_any()  # clears the count: losses here are not the film's
+            found = self._listed.trace(renderer, plan, pixels, count, samples)
         finally:
             pixels.release()
-        assert self._canvas.texture
-        return self._canvas.texture, count
+        return found, count
 
     def release(self) -> None:
         """Release all OpenGL resources."""
         if self._gather:
             self._gather.release()
         self._gather = None
-        self._canvas.release()
+        self._listed.release()
 
 
 SAMPLES = 8  # additional samples of a pixel where the mean fails

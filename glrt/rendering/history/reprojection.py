@@ -22,6 +22,7 @@ class Limits(NamedTuple):
     most: float = 64.0
     most_specular: float = 8.0  # in mirrors and glass, and out of focus
     most_at_edges: float = 2.0  # where samples may also meet another surface
+    most_at_lamps: float = 0.0  # where that surface is a lamp
 
 
 USUAL = Limits()

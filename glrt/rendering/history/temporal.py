@@ -11,77 +11,28 @@ from which the next view begins. No mode ever writes to the film.
     texture = temporal.show(renderer, weights)   # None: the film alone is to be shown
 """
 
+from collections.abc import Callable
 from typing import Literal, NamedTuple, get_args
 
 import moderngl
 
 from glrt.core.errors import RenderError
-from glrt.gpu.canvas import Canvas
-from glrt.gpu.program import TILE
 from glrt.plan.plan import Weights, are_trivial
 from glrt.rendering.history.ataa import SAMPLES, Ataa
-from glrt.rendering.history.drawn_pass import DrawnPass
 from glrt.rendering.history.gbuffer import SurfacePass, Surfaces
 from glrt.rendering.history.history_filter import Fresh, Resolver
-from glrt.rendering.history.reprojection import USUAL, Limits, Reprojection, shares_objects
+from glrt.rendering.history.lattice import FACTORS
+from glrt.rendering.history.reproject import Reproject
+from glrt.rendering.history.reprojection import shares_objects
 from glrt.rendering.history.taa import Taa
+from glrt.rendering.history.upsample import FACTOR, Upsample
 from glrt.rendering.history.wrls import Predictor, Wrls
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.screen.false_colors import Number, Told
 
-Mode = Literal["reset", "reproject", "taa", "ataa", "wrls"]
+Mode = Literal["reset", "reproject", "taa", "ataa", "wrls", "upsample"]
 
 END = 64.0  # samples of a film from which on no history is shown
-
-
-class Reproject:
-    """History follows the surfaces; film and history are weighed by their numbers of samples."""
-
-    def __init__(self, gl: moderngl.Context, limits: Limits = USUAL) -> None:
-        """Nothing is compiled or allocated before it is needed."""
-        self._reprojection = Reprojection(gl, limits)
-        self._evidence, self._fade = DrawnPass(gl, "evidence.frag"), DrawnPass(gl, "fade.frag")
-        self._tiles, self._canvas = Canvas(gl, "f4"), Canvas(gl, "f4")
-        self._history: moderngl.Texture | None = None  # the newest of this view
-        self._brought: moderngl.Texture | None = None
-
-    def arrive(self, now: Surfaces, before: Surfaces | None, is_same_light: bool) -> None:
-        """Reproject the last picture to the new view."""
-        self._brought = None
-        if before and self._history:
-            limits = None if is_same_light else OTHER_LIGHT
-            self._brought = self._reprojection.bring(now, before, self._history, limits)
-        self._history = self._brought
-
-    def show(self, now: Surfaces, fresh: Fresh) -> moderngl.Texture:
-        """The picture: radiance in RGB, in a the number of samples that it stands for."""
-        del now
-        if not self._brought:
-            self._history = None
-            return self._draw(fresh, fresh.mean, 0.0)
-        return self._draw(fresh, self._brought, fresh.end)
-
-    def _draw(self, fresh: Fresh, brought: moderngl.Texture, end: float) -> moderngl.Texture:
-        target = self._canvas.sized(fresh.mean.size)
-        width, height = fresh.mean.size
-        tiles = self._tiles.sized((-(-width // TILE), -(-height // TILE)))
-        textures = {"light": fresh.light, "mean": fresh.mean, "brought": brought}
-        self._evidence.draw(tiles, textures, {})
-        assert self._tiles.texture
-        textures["evidence"] = self._tiles.texture
-        values = {"samples": float(fresh.samples), "end": end}
-        self._fade.draw(target, textures, values)
-        self._history = self._canvas.texture
-        assert self._history
-        return self._history
-
-    def release(self) -> None:
-        """Release all OpenGL resources."""
-        for part in (self._reprojection, self._evidence, self._fade, self._tiles, self._canvas):
-            part.release()
-
-
-OTHER_LIGHT = Limits(2.0, 2.0, 2.0)  # under changed light, history is wrong by an unknown amount
 
 
 class Way(NamedTuple):
@@ -90,6 +41,7 @@ class Way(NamedTuple):
     mode: Mode = "reproject"
     predictor: Predictor = "published"  # option of wrls
     traced: int = SAMPLES  # option of ataa: additional samples of a pixel where history fails
+    factor: int = FACTOR  # option of upsample: pixels between sampled ones, in width and height
 
     @property
     def name(self) -> str:
@@ -98,11 +50,14 @@ class Way(NamedTuple):
             return f"{self.mode} {self.predictor}"
         if self.mode == "ataa" and self.traced != SAMPLES:
             return f"{self.mode} {self.traced}"
+        if self.mode == "upsample" and self.factor != FACTOR:
+            return f"{self.mode} {self.factor}"
         return self.mode
 
 
 USUAL_WAY = Way()
 _ALL = [Way(mode, predictor) for mode in get_args(Mode) for predictor in get_args(Predictor)]
+_ALL += [Way("upsample", factor=factor) for factor in FACTORS]
 WAYS = {way.name: way for way in reversed(_ALL)}  # a name alone: the published predictor
 
 
@@ -119,6 +74,8 @@ def resolver_of(gl: moderngl.Context, way: Way) -> Resolver | None:
             return Ataa(gl, way.traced)
         case "wrls":
             return Wrls(gl, way.predictor)
+        case "upsample":
+            return Upsample(gl, way.factor)
 
 
 class Temporal:
@@ -143,6 +100,8 @@ class Temporal:
 
     def leave(self, renderer: Renderer, weights: Weights | None = None) -> None:
         """Make what is shown the history; call it before an edit restarts the film."""
+        if self.coarse(renderer):
+            self._is_kept = True
         if self._resolver and renderer.samples and not self.surfaces.scene:
             self._find(renderer)  # the first view of all
         if self._resolver and renderer.samples:
@@ -160,6 +119,8 @@ class Temporal:
             for before in (self.surfaces, None):
                 self._resolver.arrive(self.surfaces, before, True)
                 self._resolver.show(self.surfaces, self._fresh(renderer, weights, END))
+            if self.upsampled and self.can_upsample(renderer):
+                self.upsampled.trace(renderer, self.surfaces)
         self.forget()
 
     def arrive(self, renderer: Renderer) -> None:
@@ -181,7 +142,47 @@ class Temporal:
         """The picture of film and history, valid until the next call; None: the film alone."""
         if not self._resolver or not self.is_shown(renderer):
             return None
+        if coarse := self.coarse(renderer):
+            return coarse
         return self._resolved(self._resolver, renderer, weights)
+
+    def can_upsample(self, renderer: Renderer) -> bool:
+        """Whether coarse pictures of what a renderer shows can be reconstructed.
+
+        The picture must be the kernel's sum of paths: without particles, probes, and relit layers.
+        """
+        is_plain = is_whole(renderer, renderer.plan.weights) and not renderer.probes.tracer
+        return isinstance(self._resolver, Upsample) and is_plain
+
+    def upsample(
+        self,
+        renderer: Renderer,
+        factor: int | None = None,
+        sampled: Callable[[], None] = lambda: None,
+    ) -> moderngl.Texture:
+        """Sample one pixel in factor^2 of the view, and reconstruct the picture at full size.
+
+        For a renderer without samples in this view, if `can_upsample`. The factor is of FACTORS
+        (default: that of the way); `sampled` is called before the picture is made. RenderError for
+        fragment shaders.
+        """
+        resolver = self._resolver
+        assert isinstance(resolver, Upsample)
+        if self.surfaces.scene is not renderer.scene:
+            self._find(renderer)  # the first view of all
+        with self._gl:
+            found = resolver.trace(renderer, self.surfaces, factor, sampled)
+        self._is_brought = self._is_prepared = True
+        return found
+
+    def coarse(self, renderer: Renderer) -> moderngl.Texture | None:
+        """The reconstructed picture, while the film of the view has no sample; else None."""
+        return self.upsampled.coarse if self.upsampled and not renderer.samples else None
+
+    @property
+    def upsampled(self) -> Upsample | None:
+        """The progress of coarse pictures of this view; None in other modes."""
+        return self._resolver if isinstance(self._resolver, Upsample) else None
 
     def is_shown(self, renderer: Renderer) -> bool:
         """Whether the picture contains history, so that it is not the film alone."""
@@ -214,6 +215,8 @@ class Temporal:
         """Discard the history, so that the next view begins without it."""
         self._is_kept = self._is_brought = False
         self._resolved_at = None
+        if self.upsampled:
+            self.upsampled.forget()
 
     def release(self) -> None:
         """Release all OpenGL resources."""
@@ -228,6 +231,11 @@ class Temporal:
             raise RenderError(
                 "temporal ataa lists the pixels that it traces: that takes compute shaders, and "
                 "the pipeline is fragment. temporal taa does without."
+            )
+        if isinstance(self._resolver, Upsample) and renderer.pipeline == "fragment":
+            raise RenderError(
+                "temporal upsample lists the pixels that it traces: that takes compute shaders, "
+                "and the pipeline is fragment. temporal reproject does without."
             )
         self._pass.fill(renderer, self.surfaces)
 

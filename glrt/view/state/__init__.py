@@ -17,6 +17,8 @@ Modules, each importing only what stands above it:
 - zoom: visible part of the picture
 - histogram: histogram of brightness
 - moving_picture: picture while the camera moves
+- upsampled_work: coarse pictures of full size
+- shown_picture: whether the picture is whole or coarse
 - path_explorer: paths of a pixel
 - session: scene, settings and their renderer
 - denoise_process: a denoiser in a process of its own

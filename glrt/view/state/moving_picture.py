@@ -1,6 +1,6 @@
 """The picture shown while the camera moves; see glrt/rendering/history/temporal.py."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 
@@ -8,6 +8,7 @@ import moderngl
 
 from glrt.core.errors import RenderError
 from glrt.plan.plan import Weights
+from glrt.rendering.history.lattice import FACTORS
 from glrt.rendering.history.temporal import END, Mode, Temporal, Way
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.screen.false_colors import Number, Told
@@ -16,6 +17,8 @@ from glrt.view.edits.edited_state import State
 
 OWN_NUMBERS: dict[Number, Mode] = {"weight": "wrls", "mask": "ataa"}
 TRANSPORT = "method", "bounces", "roulette", "sampler"  # settings with a history of their own
+UPSAMPLED = "reconstructed at full size: one pixel in {0} x {0} is sampled"
+HISTORY = "with light of earlier views, until there are {} samples"
 MOST_SEED = 0xFFFFFFFF
 GOLDEN = 0x9E3779B1  # from one seed to the next, far from seeds that users choose
 
@@ -98,6 +101,41 @@ class MovingPicture:
         self._temporal = Temporal(self._gl, Way("reset"))
         return f"{error} History of earlier views is left out (temporal reset)."
 
+    def can_upsample(self, renderer: Renderer) -> bool:
+        """Whether coarse pictures of the renderer's view are reconstructed at full size."""
+        return self._temporal.can_upsample(renderer)
+
+    def upsample(self, renderer: Renderer, factor: int, sampled: Callable[[], None]) -> None:
+        """Sample one pixel in factor^2 of the view, call `sampled`, and make the picture.
+
+        Raises RenderError as `texture` does.
+        """
+        with self._left_out_if_refused():
+            self._temporal.upsample(renderer, factor, sampled)
+
+    def is_coarse(self, renderer: Renderer | None) -> bool:
+        """Whether the view is shown by a picture that is reconstructed from some of its pixels."""
+        return renderer is not None and self._temporal.coarse(renderer) is not None
+
+    def goes_finer(self, renderer: Renderer) -> bool:
+        """Whether there is such a picture, and the film does not yet follow as the next step."""
+        return self.is_coarse(renderer) and self.progress[1] > FACTORS[0]
+
+    @property
+    def progress(self) -> tuple[int, int]:
+        """Coarse pictures of the view, and the distance of sampled pixels that they have reached.
+
+        (0, 0) without one.
+        """
+        found = self._temporal.upsampled
+        return (found.frames, found.step) if found else (0, 0)
+
+    @property
+    def factor(self) -> int:
+        """Distance of the pixels that the last coarse picture sampled; the usual one without."""
+        found = self._temporal.upsampled
+        return found.last_factor if found else FACTORS[-1]
+
     def forget(self) -> None:
         """Drop the history; the picture is shown without it from now on."""
         self._temporal.forget()
@@ -106,6 +144,12 @@ class MovingPicture:
         """Whether history is shown: not once the film has END samples, or all `wanted` ones."""
         self._temporal.end = float(min(END, wanted))
         return renderer is not None and self._temporal.is_shown(renderer)
+
+    def notice(self, renderer: Renderer, settings: Settings) -> str:
+        """Light in the picture that is not of its film, as a line of text; "" for none."""
+        if self.is_coarse(renderer):
+            return UPSAMPLED.format(self.progress[1])
+        return HISTORY.format(self.end) if self.is_shown(renderer, settings.samples) else ""
 
     def reports(self, renderer: Renderer | None, wanted: int, number: Number) -> bool:
         """Whether a number of the history, such as the weight of new samples, can be shown."""

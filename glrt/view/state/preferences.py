@@ -47,7 +47,8 @@ class Preferences(Frozen):
         "reproject: the previous picture, reprojected, until the new one has enough samples; taa: "
         "an exponential mean of reprojected pictures, clamped to the new one; ataa: taa with more "
         "samples where it fails; wrls: a line fitted to all samples of a pixel, and a mean of its "
-        "neighbours",
+        "neighbours; upsample: coarse pictures are reconstructed at full size, from samples of "
+        "some pixels and the previous pictures",
     )
     predictor: Annotated[Predictor, Editable(FREE)] = Field(
         "published",

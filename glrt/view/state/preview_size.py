@@ -29,6 +29,7 @@ class Preview:
         self._edited = -STILL
         self._factor = 1.0
         self._edit_seconds = 0.0  # for bringing an edit to the renderer
+        self._making_seconds = 0.0  # for the picture that is made of the samples, whatever its size
         self._pixel_seconds = 0.0  # for a sample of a pixel
         self._uncounted = 0.0  # seconds of frames without a sample, as those of AOVs
         self._is_owed = False
@@ -56,6 +57,10 @@ class Preview:
         """Learn the seconds in which an edit reached the renderer, without compilations."""
         self._edit_seconds += MEMORY * (seconds - self._edit_seconds)
 
+    def reconstructed(self, seconds: float) -> None:
+        """Learn the seconds in which a full picture was made of samples of some pixels."""
+        self._making_seconds += MEMORY * (seconds - self._making_seconds)
+
     def record(self, seconds: float, samples: float) -> None:
         """Learn the seconds of a sample of a pixel; a frame without samples adds to the next."""
         self._uncounted += seconds
@@ -78,6 +83,7 @@ class Preview:
         The first sample may take longer, and AOVs follow it at once.
         """
         start, before, held = self._clock(), renderer.work, renderer.samples
+        self._making_seconds = 0.0
         left = max(seconds - edit, LEAST * seconds)
         if self.is_under_way and not held:
             renderer.advance(max(OVERRUN * seconds - edit, LEAST * seconds), min(target, 1))
@@ -88,8 +94,12 @@ class Preview:
             width, height = renderer.size
             self.record(self._clock() - start, (renderer.work - before) * width * height)
 
+    def seconds_of(self, samples: float) -> float:
+        """Return the seconds that so many samples of a pixel take, as far as is known."""
+        return self._pixel_seconds * samples
+
     def _fitting(self, pixels: int, budget: float) -> float:
-        left = max(budget - self._edit_seconds, LEAST * budget)
+        left = max(budget - self._edit_seconds - self._making_seconds, LEAST * budget)
         fitting = (factor for factor in FACTORS if self._takes(pixels, factor) <= left)
         return next(fitting, FACTORS[-1])
 

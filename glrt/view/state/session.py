@@ -19,19 +19,20 @@ from glrt.rendering.screen.surface_view import NEEDED
 from glrt.scene.scene import Scene
 from glrt.settings import OF_PATHS, TERMS, Aov, Cost, Settings, settings_for
 from glrt.view.edits.edited_state import State
-from glrt.view.edits.editing import Editing
 from glrt.view.state.idle_kernel import IdleKernel
 from glrt.view.state.layer_limits import LayerLimits
 from glrt.view.state.live_probes import kept_by_probes
 from glrt.view.state.moving_picture import MovingPicture
 from glrt.view.state.preview_noise import FirstSurface
 from glrt.view.state.preview_size import Preview
+from glrt.view.state.shown_picture import ShownPicture
+from glrt.view.state.upsampled_work import UpsampledWork
 
 ANNOUNCED = 2  # frames that announce a compilation before it blocks them
 LONGEST = 1.0  # seconds that a frame may take for a number of samples that the user chose
 
 
-class Session(Editing):
+class Session(ShownPicture):
     """Edited scene and settings, and a renderer that follows the edits frame by frame."""
 
     def __init__(
@@ -62,12 +63,8 @@ class Session(Editing):
         self.room = LayerLimits(int(context.gl.info["GL_MAX_TEXTURE_SIZE"]))
         self.context, self._clock = context, clock
         self._announced, self._preview = 0, Preview(clock)
+        self._upsampled = UpsampledWork(self.moving, self._preview, clock)
         self._full_size = self.state.settings.size  # of the last edit that was applied
-
-    @property
-    def samples(self) -> int:
-        """Samples of each pixel of the picture."""
-        return self.renderer.samples if self.renderer else 0
 
     @property
     def known_from(self) -> int:
@@ -98,25 +95,6 @@ class Session(Editing):
         plan = self.renderer.plan
         is_alone = self.alone is not None and plan.layering == "lengths" and plan.layers
         return plan.alone(self.alone or 0) if is_alone else plan.weights
-
-    @property
-    def is_preview(self) -> bool:
-        """Whether the renderer works at less than full size."""
-        return self.renderer is not None and self.renderer.settings.width != self.settings.width
-
-    @property
-    def is_passing(self) -> bool:
-        """Whether the picture is temporary: at less than full size, or by live probes."""
-        is_live = self.renderer is not None and self.renderer.probes.hysteresis is not None
-        return self.is_preview or is_live
-
-    @property
-    def is_shown(self) -> bool:
-        """Whether there is something to show; a preview is shown only with its AOVs."""
-        if not self.renderer or not self.samples:
-            return False
-        has_aovs = not self.renderer.settings.aov or self.renderer.shown[1] > 0
-        return has_aovs or not self.is_preview
 
     @property
     def is_behind(self) -> bool:
@@ -194,7 +172,8 @@ class Session(Editing):
 
     def _render(self, renderer: Renderer, target: int, seconds: float, edit: float) -> None:
         start = self._clock()
-        self._preview.work(renderer, target, seconds, edit)
+        work = self._upsampled if self._upsamples else self._preview
+        work.work(renderer, target, seconds, edit)
         self.rendering += self._clock() - start
         if self.is_shown:
             self._preview.deliver()
@@ -229,6 +208,15 @@ class Session(Editing):
         elif self.samples and not (self.paused or self.waits) and self._hysteresis is not None:
             self._go_on()
         return self.renderer is not None
+
+    @property
+    def _upsamples(self) -> bool:
+        """Whether the present picture is, or is to be, reconstructed from samples of some pixels.
+
+        That lasts until each pixel has been sampled, also after the last edit.
+        """
+        is_plain = not self.aovs and self.alone is None
+        return is_plain and self._upsampled.is_due(self.renderer)
 
     def _go_on(self) -> None:
         """Begin another picture of the same scene, by live probes."""
@@ -292,8 +280,8 @@ class Session(Editing):
 
     def _wanted(self) -> State:
         """Return the state to render; while edits restart it, at a size that keeps frames fast."""
-        factor = self._preview.factor
+        factor = 1.0 if self._upsamples else self._preview.factor
         shown = self.aovs or (NEEDED if factor > 1 and self.surface.is_wanted else ())
         state = State(self.scene, self.settings).showing(*shown).coarser(factor)
-        is_moving = self._preview.is_under_way or self._hysteresis is not None
+        is_moving = self._preview.is_under_way or self._upsamples or self._hysteresis is not None
         return self.moving.reseeded(state) if is_moving else state

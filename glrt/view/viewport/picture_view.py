@@ -31,11 +31,10 @@ SURFACE = "preview: first surface under simple light"
 NO_PROBES = "The method {} has no probes: ddgi, gather and resampled do"
 NO_HISTORY = "The view {} is there while light of earlier views is shown, by temporal {}"
 OF_NUMBERS = {
-    "history": "reproject, taa, ataa or wrls",
+    "history": "reproject, taa, ataa, wrls or upsample",
     "weight": "wrls alone",
     "mask": "ataa alone",
 }
-HISTORY = "with light of earlier views, until there are {} samples"
 
 
 @dataclass
@@ -116,7 +115,7 @@ class PictureView:
         if kept and other is None:
             return  # wait until it has as many samples
         settings, view = session.settings, self._possible(session)
-        progress = renderer.shown, session.restarts, session.weights
+        progress = renderer.shown, session.restarts, session.weights, session.moving.progress
         content = (
             *progress,
             session.moving.is_shown(renderer, settings.samples),
@@ -166,8 +165,8 @@ class PictureView:
             return f"The view {self.view} comes with its first sample"
         if (number := number_of(self.view)) and self.drawn != self.view:
             return NO_HISTORY.format(number, OF_NUMBERS[number])
-        if self.drawn == "picture" and session.moving.is_shown(renderer, session.settings.samples):
-            return HISTORY.format(session.moving.end)
+        if self.drawn == "picture" and (told := session.moving.notice(renderer, session.settings)):
+            return told
         if is_filtered(self.view):
             return self.denoised.told(session)
         if self.view != "difference":
@@ -236,7 +235,7 @@ class PictureView:
         if view == "picture":
             shown = session.moving.texture(renderer, weights) or light
             self.picture.draw(shown, session.settings, session.is_preview)
-            return self._draw_surface(session, renderer) if session.is_preview else None
+            return self._draw_surface(session, renderer) if session.is_reduced else None
         if is_filtered(view):
             return self._draw_filtered(session, film, view)
         if is_of_probes(view):

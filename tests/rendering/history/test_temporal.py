@@ -9,15 +9,8 @@ from glrt.analysis.motion.playing import Played, play, screen_of
 from glrt.analysis.motion.sequences import Sequence, orbit
 from glrt.gpu.context import Context, Pipeline
 from glrt.image.sources import load
-from glrt.rendering.history.temporal import (
-    END,
-    OTHER_LIGHT,
-    Mode,
-    Reproject,
-    Temporal,
-    Way,
-    is_lit_alike,
-)
+from glrt.rendering.history.reproject import OTHER_LIGHT, Reproject
+from glrt.rendering.history.temporal import END, Mode, Temporal, Way, is_lit_alike
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 from glrt.settings import Settings, settings_for
@@ -29,7 +22,7 @@ SKY: dict[str, Any] = {
     "background": {"bottom": [0.1, 0.2, 0.3], "top": [3.0, 2.0, 1.0]}
 }  # noise on a wall
 PIXEL = 1.0 / 12
-HISTORIES: list[Mode] = ["reproject", "taa", "ataa", "wrls"]
+HISTORIES: list[Mode] = ["reproject", "taa", "ataa", "wrls", "upsample"]
 
 
 def settings(scene: Scene, **more: object) -> Settings:
@@ -111,7 +104,7 @@ def test_reset_shows_the_film(context: Context, pipeline: Pipeline) -> None:
         assert same_bits(found[number], film_of(scene, context, seed=number))
 
 
-@pytest.mark.parametrize("mode", [mode for mode in HISTORIES if mode != "ataa"])  # refused there
+@pytest.mark.parametrize("mode", ["reproject", "taa", "wrls"])  # others are refused there
 def test_both_pipelines_show_the_same_bits(context: Context, mode: Mode) -> None:
     scenes = orbit(load("cornell"), 4, 2.0).scenes
     one, other = (pictures(scenes, context, mode, p) for p in ("compute", "fragment"))
@@ -192,7 +185,7 @@ def test_the_evidence_is_the_bias_beyond_chance(context: Context) -> None:
     assert found[1] == found[2] == 0
 
 
-@pytest.mark.parametrize("mode", HISTORIES)
+@pytest.mark.parametrize("mode", [mode for mode in HISTORIES if mode != "upsample"])
 def test_a_view_of_other_objects_begins_again(context: Context, mode: Mode) -> None:
     balls = [sphere([0, 0, z], 1.0, "matte") for z in (-3, -6)]
     camera = {"position": [0, 0, 0], "look_at": [0, 0, -1]}

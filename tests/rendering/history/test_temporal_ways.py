@@ -29,7 +29,7 @@ WAYS: dict[str, dict[str, Any]] = {
 }
 
 
-HISTORIES: tuple[Mode, ...] = ("taa", "ataa", "wrls")
+HISTORIES: tuple[Mode, ...] = ("taa", "ataa", "wrls", "upsample")
 BOTH: list[tuple[str, Mode]] = [(way, "reproject") for way in WAYS]
 BOTH += [(way, mode) for mode in HISTORIES for way in WAYS]
 
