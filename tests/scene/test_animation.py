@@ -156,6 +156,8 @@ BAD = {
     "no target": (track("", [0], [1]), "is not the name of a value"),
     "bare spaces": (track("objects.a b.min", [0], [1]), "such as camera.position, lights.lamp"),
     "two keys": (track("camera.fov=1\na", [0], [1]), "is not the name of a value"),
+    "one time": ({**FOV, "times": 3}, "times must be a list, got 3"),
+    "no time": ({**FOV, "times": []}, "times must be a list of at least 1"),
     "lengths": ({**FOV, "times": [0]}, "has 1 times and 2 values"),
     "order": ({**FOV, "times": [1, 1]}, "times must grow from key to key"),
     "range": ({**FOV, "values": [40, 200]}, "tracks[0].values[1]: fov must be less than 180"),
