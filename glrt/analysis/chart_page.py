@@ -12,6 +12,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from glrt.analysis.plot import Chart
 from glrt.core.web_page import save_web_page
@@ -140,13 +141,18 @@ def table_of(chart: Chart) -> Table:
 
 def small_picture(image: Image, caption: str) -> Picture:
     """A picture exposed by itself: its brighter pixels, above TAIL %, show WHITE and more."""
-    from PIL import Image as Pillow
-
     radiance = np.nan_to_num(image.shown, posinf=0.0, neginf=0.0)
     bright = float(np.percentile(radiance.max(axis=2), TAIL))
     codes = expose_and_encode(radiance, math.log2(WHITE / bright) if bright > 0 else 0.0, "neutral")
+    return encoded_picture(codes, caption)
+
+
+def encoded_picture(codes: NDArray[np.uint8], caption: str) -> Picture:
+    """A picture of sRGB codes, (H, W, 3), row 0 on top."""
+    from PIL import Image as Pillow
+
     file = io.BytesIO()
     Pillow.fromarray(codes).save(file, format="PNG", optimize=True)
-    height, width, _ = radiance.shape
+    height, width, _ = codes.shape
     data = base64.b64encode(file.getvalue()).decode()
     return Picture(caption, width, height, f"data:image/png;base64,{data}")

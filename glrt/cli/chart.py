@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any, get_args
 
 from glrt.analysis.chart import files as method_files
+from glrt.analysis.chart.choice import MOST_NAMED, MOST_SHOWN, called
 from glrt.analysis.chart.experiment import Plan, Tell, frame_of, measure_scene
 from glrt.analysis.chart.files import save_chart
 from glrt.analysis.chart.sections import section_of
@@ -70,6 +71,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         note = f"{text} (default: {default:g})"
         parser.add_argument(f"--{name}", type=kind, default=default, metavar=metavar, help=note)
     parser.add_argument(
+        "--curve",
+        action="append",
+        default=[],
+        metavar="NAME",
+        help="show this variant in the picture too, such as ddgi or 'mis, no roulette'; may be "
+        f"given {MOST_NAMED} times. A picture has {MOST_SHOWN} curves at most, the table has all",
+    )
+    parser.add_argument(
         "--temporal",
         metavar="MODE,...",
         help="chart the error of what the window shows while the camera moves and after the light "
@@ -123,6 +132,7 @@ def run(arguments: argparse.Namespace) -> int:
             "of --temporal, --predictor, --traced, --factor or --hysteresis."
         )
     scenes = _scenes(arguments.scenes, file_rules(arguments))
+    _check_named(plan, scenes)
     page = PAGE if ways else "chart.md"
     outputs = prepare_outputs(arguments.output, arguments.html, [page])
     with Interruption().watched() as interruption:
@@ -186,8 +196,8 @@ def _chart(
 
 _ABOUT = (
     "Relative RMS error against a reference, by the time of all dispatches and by rays. Times are "
-    "medians; bands are 95 % intervals over the rounds. At first the charts show the curves on "
-    "the Pareto front, the baseline and the default."
+    f"medians; bands are 95 % intervals over the rounds. At first the charts show {MOST_SHOWN} "
+    "curves at most: the baseline, the default, what --curve names, and the fastest."
 )
 
 
@@ -261,7 +271,21 @@ def _plan(arguments: argparse.Namespace) -> Plan:
     for name, (low, high) in _LIMITS.items():
         if not low <= getattr(arguments, name) <= high:
             raise UsageError(f"--{name} must be from {low:g} to {high:g}.")
-    return Plan(arguments.height, arguments.rounds, arguments.seconds)
+    if len(named := tuple(dict.fromkeys(arguments.curve))) > MOST_NAMED:
+        raise UsageError(f"--curve may be given at most {MOST_NAMED} times.")
+    if named and arguments.temporal is not None:
+        raise UsageError("--curve names variants of methods, and --temporal charts none: omit one.")
+    return Plan(arguments.height, arguments.rounds, arguments.seconds, named)
+
+
+def _check_named(plan: Plan, scenes: dict[str, Scene]) -> None:
+    """Raise UsageError if a curve that the user named is in no chart."""
+    if not plan.named:
+        return
+    every = [v.name for scene in scenes.values() for v in plan.variants(scene)]
+    if unknown := [name for name in plan.named if called(name, every) is None]:
+        names = "; ".join(dict.fromkeys(every))
+        raise UsageError(f"--curve {unknown[0]!r} is in none of these charts. They have: {names}.")
 
 
 def _scenes(sources: Sequence[str], rules: FileRules) -> dict[str, Scene]:

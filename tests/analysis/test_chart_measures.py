@@ -47,6 +47,20 @@ def test_order_changes_from_round_to_round_and_seeds_too(context: Context) -> No
     assert len(set(firsts)) == 4
 
 
+def test_pictures_of_a_variant_continue_one_film(context: Context) -> None:
+    scene = load("methods/diffuse")
+    settings = settings_for(scene.render, width=8, height=8)
+    variants = variants_of(scene, settings, ["naive", "nee"], leads=False)
+    truth = np.ones((8, 8, 3))
+    bench = Bench(scene, variants, Reference(truth, truth, 1, 1), context)
+    two = list(bench.pictures("nee", [2, 6]))
+    again = list(bench.pictures("nee", [6]))
+    bench.release()
+    assert [picture.samples for picture in two] == [2, 6]
+    assert np.array_equal(two[1].radiance, again[0].radiance)
+    assert not np.array_equal(two[0].radiance, two[1].radiance)
+
+
 def test_a_denoised_variant_is_judged_by_what_it_shows(context: Context) -> None:
     """From 4 samples on, two observations a half; its error at the end is not that of its noise."""
     scene = load("cornell")

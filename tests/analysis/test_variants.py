@@ -4,7 +4,6 @@ from typing import Any
 
 import pytest
 
-from glrt.analysis.chart.files import MARKERS
 from glrt.analysis.variants import variants_of
 from glrt.denoise import oidn
 from glrt.image.sources import load
@@ -66,8 +65,3 @@ def test_the_denoisers_that_are_installed_are_charted(
     variants = variants_of(scene, settings_for(scene.render), ["mis"])
     denoised = {v.name: v.settings.denoise for v in variants if v.settings.denoise != "none"}
     assert denoised == {f"mis, denoised by {name}": name for name in filters}
-
-
-def test_every_variant_of_the_scene_with_most_has_a_marker_of_its_own() -> None:
-    scene = load("methods/gap")
-    assert len(variants_of(scene, settings_for(scene.render))) <= len(MARKERS) == len({*MARKERS})

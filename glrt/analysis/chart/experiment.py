@@ -11,6 +11,7 @@ from glrt.analysis.chart import flip
 from glrt.analysis.chart.curves import Curve, curves_of
 from glrt.analysis.chart.measure import Bench, Look, Round, Run
 from glrt.analysis.chart.rays import Rays, rays_of
+from glrt.analysis.chart.sights import Sight, sights_of
 from glrt.analysis.reference import Budget, Reference, reference_for
 from glrt.analysis.variants import Variant, variants_of
 from glrt.core import files
@@ -69,6 +70,15 @@ class Plan:
     height: int = 64
     rounds: int = 5
     seconds: float = 60.0
+    named: tuple[str, ...] = ()  # curves that the user wants in the picture
+
+    def settings(self, scene: Scene) -> Settings:
+        """The settings that the variants of a scene change."""
+        return settings_for(frame_of(scene, self.height), sampler=SAMPLER)
+
+    def variants(self, scene: Scene) -> list[Variant]:
+        """All variants of a scene; a machine's loop limit may leave some out."""
+        return variants_of(scene, self.settings(scene))
 
 
 @dataclass(frozen=True)
@@ -83,6 +93,8 @@ class Experiment:
     curves: tuple[Curve, ...]  # one per variant, in the same order
     rays: tuple[Rays, ...]  # of each variant
     place: str  # version, driver, number of processors
+    named: tuple[str, ...] = ()  # curves that the user wants in the picture
+    sights: tuple[Sight, ...] = ()  # pictures with the errors of LEVELS
 
     @property
     def size(self) -> tuple[int, int]:
@@ -98,10 +110,10 @@ def measure_scene(
 
     Without such a file, an interrupted measurement is lost.
     """
-    settings = settings_for(frame_of(scene, plan.height), sampler=SAMPLER)
+    settings = plan.settings(scene)
     variants = [
         variant
-        for variant in variants_of(scene, settings)
+        for variant in plan.variants(scene)
         if is_within_limit(context, prepare(scene, variant.settings))
     ]
     place = f"glrt {VERSION}, {context.renderer}, {os.cpu_count()} processors"
@@ -124,10 +136,12 @@ def measure_scene(
     bench = Bench(scene, variants, reference, context)
     for done in _missing_rounds(bench, plan, rounds, len(variants), report_round):
         save_rounds(rounds_file, key, done)
-    bench.release()
     curves = tuple(curves_of(_in_order(rounds, variants), reference.error))
-    title = scene.title or name
-    return Experiment(name, title, len(rounds), reference, tuple(variants), curves, rays, place)
+    sights = tuple(sights_of(bench, curves, reference))
+    bench.release()
+    title, found = scene.title or name, tuple(variants)
+    measured = (reference, found, curves, rays, place)
+    return Experiment(name, title, len(rounds), *measured, plan.named, sights)
 
 
 def frame_of(scene: Scene, height: int) -> Settings:

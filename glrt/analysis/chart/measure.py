@@ -77,6 +77,13 @@ class Bench:
             runs.append(_run(name, self._renderers[name], self._reference, share, with_flip))
             yield runs
 
+    def pictures(self, name: str, samples: Sequence[int]) -> Iterator[Image]:
+        """Render a variant again; yield its picture at each number of samples, ascending."""
+        self._renderers[name].update(seed=1)
+        for wanted in samples:
+            self._renderers[name].render(wanted)
+            yield self._renderers[name].image()
+
     def release(self) -> None:
         """Release the resources of all renderers."""
         for renderer in self._renderers.values():

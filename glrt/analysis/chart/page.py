@@ -3,8 +3,10 @@
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
+from glrt.analysis.chart.choice import BASE, MOST_SHOWN, times_to
 from glrt.analysis.chart.curves import LEVELS, Curve, Interval, front
 from glrt.analysis.chart.experiment import SAMPLER, Experiment
+from glrt.analysis.variants import LEAD
 
 
 def percent(share: float) -> str:
@@ -18,26 +20,26 @@ def ending(curve: Curve) -> str:
     return f"{curve.name}: bias {percent(curve.bias.value)}" if curve.is_biased else curve.name
 
 
-BASE = "naive"  # the baseline of speed-ups: the method of the thesis
-
-
 class SpeedUp(NamedTuple):
     """Milliseconds to an error by the fastest variant and by BASE, and the speed-up in words."""
 
     fast: float
     slow: float
     text: str
+    is_measured: bool  # none of the two times is extrapolated
 
 
 def speed_up(curves: Sequence[Curve], level: float) -> SpeedUp | None:
     """The speed-up of the fastest variant over BASE at an error; None if BASE is the fastest."""
-    known = _times_to(curves, level)
+    known = times_to(curves, level)
     bases = [(time, measured) for time, name, measured in known if BASE in name.split(" = ")]
     if not bases or known[0][0] == bases[0][0]:
         return None
-    (fast, winner, _), (slow, measured) = known[0], bases[0]
+    (fast, winner, is_known), (slow, is_seen) = known[0], bases[0]
+    measured = is_known and is_seen
     about = "" if measured else "about "
-    return SpeedUp(fast, slow, f"{winner} {about}{number(slow / fast)} x as fast as {BASE}")
+    text = f"{winner} {about}{number(slow / fast)} x as fast as {BASE}"
+    return SpeedUp(fast, slow, text, measured)
 
 
 def number(value: float) -> str:
@@ -97,6 +99,7 @@ def table(experiment: Experiment) -> Iterator[str]:
 
 
 def _introduction(experiment: Experiment) -> Iterator[str]:
+    levels = ", ".join(percent(level) for level in LEVELS)
     yield "# Speed against accuracy"
     yield ""
     yield (
@@ -105,8 +108,10 @@ def _introduction(experiment: Experiment) -> Iterator[str]:
         "filter where it is denoised, without compilation. Every round runs each variant once, in "
         "another order and with other seeds. "
         "Times are medians; errors and slopes have 95 % confidence intervals over the rounds. A "
-        "time after `~` is extrapolated. Points drawn in black are on the Pareto front: no other "
-        "point has both less time and less error. At the line of an error, the chart compares "
+        f"time after `~` is extrapolated. A picture shows at most {MOST_SHOWN} variants: `{BASE}`, "
+        f"`{LEAD}`, what `--curve` names, the first to reach {levels}, and the fastest at other "
+        "errors. Grey steps are the Pareto front of all variants: no point has both less time and "
+        "less error. At the line of an error, the chart compares "
         f"the fastest variant with `{BASE}`. The sampler is `{SAMPLER}` unless the name of a "
         "variant contains another."
     )
@@ -127,19 +132,13 @@ def _has_flip(experiment: Experiment) -> bool:
 
 def _winner(curves: Sequence[Curve], level: float) -> str:
     """The variants in the order in which they reach an error, with times relative to the first."""
-    known = _times_to(curves, level)
+    known = times_to(curves, level)
     if not known:
         return f"No variant reaches {percent(level)}."
     time, name, measured = known[0]
     text = f"{percent(level)} is reached first by `{name}`, after {_time((time, measured))} ms"
     others = [f"`{who}` ({number(other / time)} x)" for other, who, _ in known[1:]]
     return f"{text}; then by {', '.join(others)}." if others else f"{text}, and by no other."
-
-
-def _times_to(curves: Sequence[Curve], level: float) -> list[tuple[float, str, bool]]:
-    """Milliseconds to an error, name, and whether it was measured, fastest first."""
-    reached = [(curve.milliseconds_to(level), curve.name) for curve in curves]
-    return sorted((time[0], name, time[1]) for time, name in reached if time)
 
 
 def _biases(curves: Sequence[Curve]) -> Iterator[str]:

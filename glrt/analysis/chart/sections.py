@@ -2,26 +2,37 @@
 
 from collections.abc import Iterator, Sequence
 
+from glrt.analysis.chart.choice import shown
 from glrt.analysis.chart.curves import LEVELS, Curve, Point, front
 from glrt.analysis.chart.experiment import Experiment
-from glrt.analysis.chart.page import BASE, number, percent, sentences, speed_up, table
-from glrt.analysis.chart_page import Axes, Dot, Level, Line, Section, Table
-from glrt.analysis.variants import LEAD
+from glrt.analysis.chart.page import number, percent, sentences, speed_up, table
+from glrt.analysis.chart.sights import captions, codes_of
+from glrt.analysis.chart_page import (
+    Axes,
+    Dot,
+    Level,
+    Line,
+    Picture,
+    Section,
+    Table,
+    encoded_picture,
+)
 
 FRONT = "Pareto front"
 
 
 def section_of(experiment: Experiment) -> Section:
-    """The section of a scene. At first it shows the front, and the variants BASE and LEAD."""
-    curves = experiment.curves
+    """The section of a scene. The curves that are shown at first come first."""
+    few = shown(experiment.curves, experiment.named)
+    order = [*few, *(n for n in range(len(experiment.curves)) if n not in few)]
+    curves = [experiment.curves[number] for number in order]
     times = [[point.milliseconds.value for point in curve.points] for curve in curves]
-    pairs = zip(curves, experiment.rays, strict=True)
+    pairs = zip(curves, (experiment.rays[number] for number in order), strict=True)
     rays = [[ray.of(point.samples) for point in curve.points] for curve, ray in pairs]
-    shown = _shown(curves, times)
     width, height = experiment.size
     charts = [
-        _axes("Error over time", "milliseconds per picture", curves, times, shown),
-        _axes("Error over rays", "rays per pixel", curves, rays, shown),
+        _axes("Error over time", "milliseconds per picture", curves, times, len(few)),
+        _axes("Error over rays", "rays per pixel", curves, rays, len(few)),
     ]
     return Section(
         name=experiment.name,
@@ -30,6 +41,7 @@ def section_of(experiment: Experiment) -> Section:
         charts=charts,
         tables=[Table("all variants", list(_cells(experiment)))],
         findings=[sentence.replace("`", "") for sentence in sentences(experiment)],
+        pictures=list(_pictures(experiment)),
     )
 
 
@@ -38,15 +50,15 @@ def _axes(
     x_label: str,
     curves: Sequence[Curve],
     places: Sequence[Sequence[float]],
-    shown: set[str],
+    few: int,
 ) -> Axes:
     lines = [
         Line(
             curve.name,
             [_dot(x, point) for x, point in zip(xs, curve.points, strict=True)],
-            is_shown=curve.name in shown,
+            is_shown=place < few,
         )
-        for curve, xs in zip(curves, places, strict=True)
+        for place, (curve, xs) in enumerate(zip(curves, places, strict=True))
     ]
     lines.append(Line(FRONT, _front([dot for line in lines for dot in line.dots]), "front"))
     by_time = x_label.startswith("milliseconds")
@@ -68,21 +80,15 @@ def _front(dots: Sequence[Dot]) -> list[Dot]:
     return [Dot(*known[place], tip="") for place in front(known)]
 
 
-def _shown(curves: Sequence[Curve], times: Sequence[Sequence[float]]) -> set[str]:
-    """The names of the curves that reach the front, of the baseline and of the default."""
-    dots = [
-        (x, point.error.value, curve.name)
-        for curve, xs in zip(curves, times, strict=True)
-        for x, point in zip(xs, curve.points, strict=True)
-    ]
-    names = {dots[place][2] for place in front([dot[:2] for dot in dots])}
-    wanted = {BASE, LEAD}
-    return names | {curve.name for curve in curves if wanted & set(curve.name.split(" = "))}
-
-
 def _text(curves: Sequence[Curve], level: float) -> str:
     gain = speed_up(curves, level)
     return f"{percent(level)}: {gain.text}" if gain else percent(level)
+
+
+def _pictures(experiment: Experiment) -> Iterator[Picture]:
+    if experiment.sights:
+        shown_with = experiment.sights, experiment.reference
+        yield from map(encoded_picture, codes_of(*shown_with), captions(*shown_with))
 
 
 def _cells(experiment: Experiment) -> Iterator[list[str]]:
