@@ -104,7 +104,7 @@ Around around_of(ivec2 texel, vec4 surface, vec4 facing) {
 }
 
 // The noise of sampled pixels of the same surface around the nearest 3 x 3. Where all of these are dark by chance, their
-// pairs tell of no noise.
+// pairs show no noise.
 float noise_beyond(ivec2 texel, vec4 surface, vec4 facing) {
     ivec2 size = textureSize(position, 0);
     ivec2 middle = ivec2(floor((vec2(texel - corner) + 0.5 * float(factor)) / float(factor)));
