@@ -2,7 +2,8 @@
 
 Each label has candidates around its curve. Its cost grows with the length of the curves below it,
 the distance from its curve, and crossings of its leader. The solver lets one label after the other
-take the cheapest candidate, given the others, until none moves: the same places every time.
+take the cheapest candidate, given the others, until none moves. It begins with each label once, and
+keeps the cheapest result: the same places every time.
 Lengths are in pixels; y grows upwards.
 """
 
@@ -89,20 +90,36 @@ def above(
 
 
 def solve(labels: Sequence[Candidates], frame: tuple[float, float]) -> list[Place]:
-    """A place for each label in a frame of a width and height."""
+    """A place for each label in a frame of a width and height: the cheapest of several attempts.
+
+    The attempts begin with other labels, since the first to choose have the most room.
+    """
     own = [each.costs + _outside(each.boxes, frame) for each in labels]
+    count = len(labels)
+    orders = [[(first + n) % count for n in range(count)] for first in range(count)]
+    attempts = [_settled(labels, own, order) for order in orders]
+    _, best = min(attempts, key=lambda attempt: attempt[0])
+    return [_place(each, best[number]) for number, each in enumerate(labels)]
+
+
+def _settled(
+    labels: Sequence[Candidates], own: Sequence[Array], order: Sequence[int]
+) -> tuple[float, dict[int, int]]:
+    """The cost of all places in the end, and the candidate of each label."""
     chosen: dict[int, int] = {}
+    total = 0.0
     for _ in range(SWEEPS):
-        before = dict(chosen)
-        for number, each in enumerate(labels):
+        before, total = dict(chosen), 0.0
+        for number in order:
+            others = [other for other in chosen if other != number]
             cost = own[number].copy()
-            for other, place in chosen.items():
-                if other != number:
-                    cost += _conflicts(each, labels[other], place)
+            for other in others:
+                cost += _conflicts(labels[number], labels[other], chosen[other])
             chosen[number] = int(np.argmin(cost))
+            total += float(cost[chosen[number]])
         if chosen == before:
             break
-    return [_place(each, chosen[number]) for number, each in enumerate(labels)]
+    return total, chosen
 
 
 def _place(label: Candidates, chosen: int) -> Place:
