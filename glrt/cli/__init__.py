@@ -20,6 +20,7 @@ Modules, each importing only what stands above it:
 - simplify: `glrt inspect --simplify`
 - inspect: `glrt inspect`
 - paths: `glrt paths`
+- moving_options: options of `glrt chart` for what moves
 - chart: `glrt chart`
 - stress: `glrt stress`
 - doctor: `glrt doctor`

@@ -5,14 +5,11 @@ after an interruption; with more rounds, it adds to them.
 """
 
 import argparse
-import itertools
-import math
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
-from typing import Any, get_args
 
 from glrt.analysis.chart import files as method_files
 from glrt.analysis.chart.choice import MOST_NAMED, MOST_SHOWN, called
@@ -25,18 +22,13 @@ from glrt.analysis.motion.measure import TrackPlan, tracks_of
 from glrt.analysis.motion.report import PAGE, save_page, save_tracks
 from glrt.analysis.outputs import Outputs, prepare_outputs
 from glrt.analysis.plot import MOST_CURVES
+from glrt.cli.moving_options import add_moving, hysteresis_of, ways_of
 from glrt.cli.options import SCENE, add_context, add_files, file_rules
 from glrt.core.errors import UsageError
 from glrt.gpu.context import Choice, open_context
 from glrt.image.sources import STANDARD_INPUT, FileRules, load_recipe
 from glrt.process.command import file_names
 from glrt.process.signals import INTERRUPTED
-from glrt.rendering.history.ataa import CHOICES, SAMPLES
-from glrt.rendering.history.lattice import FACTORS
-from glrt.rendering.history.temporal import Mode, Way
-from glrt.rendering.history.upsample import FACTOR
-from glrt.rendering.history.wrls import Predictor
-from glrt.rendering.probe_supply import HYSTERESIS
 from glrt.rendering.stopping import Interruption
 from glrt.scene.files.path_text import text_of
 from glrt.scene.scene import Scene
@@ -78,41 +70,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="show this variant in the picture too, such as ddgi or 'mis, no roulette'; may be "
         f"given {MOST_NAMED} times. A picture has {MOST_SHOWN} curves at most, the table has all",
     )
-    parser.add_argument(
-        "--temporal",
-        metavar="MODE,...",
-        help="chart the error of what the window shows while the camera moves and after the light "
-        f"changes, in place of methods; of {', '.join(get_args(Mode))}. No clock is read: --rounds "
-        "and --seconds are not used",
-    )
-    parser.add_argument(
-        "--predictor",
-        metavar="NAME,...",
-        default="published",
-        help="what wrls of --temporal predicts from; of published, delayed (default: published)",
-    )
-    parser.add_argument(
-        "--traced",
-        metavar="N,...",
-        default=str(SAMPLES),
-        help="samples that ataa of --temporal traces where history fails, "
-        f"{CHOICES[0]} to {CHOICES[-1]} (default: {SAMPLES})",
-    )
-    parser.add_argument(
-        "--factor",
-        metavar="K,...",
-        default=str(FACTOR),
-        help="one pixel in K x K is sampled by upsample of --temporal, and a small picture that "
-        "takes as many rays is charted, too; of "
-        f"{', '.join(map(str, FACTORS))} (default: {FACTOR})",
-    )
-    parser.add_argument(
-        "--hysteresis",
-        metavar="H,...",
-        help="with --temporal, chart method ddgi, too: with probes of their own for each picture, "
-        "and with live ones that keep such a share of what they hold (the window's: "
-        f"{HYSTERESIS:g})",
-    )
+    add_moving(parser)
     add_context(parser)
     add_files(parser)
     parser.add_argument("--quiet", action="store_true", help="print no progress and no summary")
@@ -124,7 +82,7 @@ _LIMITS = {"height": (8, 4096), "rounds": (2, 1000), "seconds": (0.1, 1e6)}
 
 def run(arguments: argparse.Namespace) -> int:
     """Write a chart of each scene and one page for all of them; return the exit code."""
-    plan, ways, kept = _plan(arguments), _ways(arguments), _hysteresis(arguments)
+    plan, ways, kept = _plan(arguments), ways_of(arguments), hysteresis_of(arguments)
     small = sum(way.mode == "upsample" for way in ways)  # each has an enlarged picture, too
     if (curves := len(ways) + small + len(kept) + bool(kept)) > MOST_CURVES:
         raise UsageError(
@@ -229,42 +187,6 @@ def _temporal(
     if outputs.page:
         about = f"Relative RMS error of what is on the screen. {size}"
         save_chart_page(sections, outputs.page, "Error while something moves", about)
-
-
-def _ways(arguments: argparse.Namespace) -> tuple[Way, ...]:
-    """Return the modes to chart in order, each with all values of its own option."""
-    predictors = _chosen("--predictor", arguments.predictor, get_args(Predictor))
-    traced = _chosen("--traced", arguments.traced, tuple(map(str, CHOICES)))
-    factors = _chosen("--factor", arguments.factor, tuple(map(str, FACTORS)))
-    modes = _chosen("--temporal", arguments.temporal, get_args(Mode))
-    options = [*itertools.product(predictors, map(int, traced), map(int, factors))]
-    found = [Way(mode, *chosen) for mode in modes for chosen in options]
-    return tuple({way.name: way for way in found}.values())
-
-
-def _hysteresis(arguments: argparse.Namespace) -> tuple[float, ...]:
-    """Return the values of --hysteresis, from 0 to below 1; empty if it is not given."""
-    if arguments.hysteresis is None:
-        return ()
-    if arguments.temporal is None:
-        raise UsageError("--hysteresis is of live probes while something moves: give --temporal.")
-    try:
-        given = tuple(dict.fromkeys(map(float, arguments.hysteresis.split(","))))
-    except ValueError:
-        given = (math.nan,)
-    if not all(0 <= kept < 1 for kept in given):
-        raise UsageError(
-            f"--hysteresis takes shares from 0 to below 1, with commas between; got "
-            f"{arguments.hysteresis!r}."
-        )
-    return given
-
-
-def _chosen(option: str, given: str | None, known: tuple[Any, ...]) -> tuple[Any, ...]:
-    names = given.split(",") if given is not None else []
-    if unknown := [name for name in names if name not in known]:
-        raise UsageError(f"{option} takes {', '.join(known)}; got {unknown[0]!r}.")
-    return tuple(dict.fromkeys(names))
 
 
 def _plan(arguments: argparse.Namespace) -> Plan:
