@@ -23,8 +23,8 @@ from glrt.analysis.motion.playing import Played, play
 from glrt.analysis.motion.report import HEADINGS, PAGE, rows, save_page, save_tracks
 from glrt.analysis.motion.sequences import light_step, orbit, turned
 from glrt.analysis.plot import MOST_CURVES
-from glrt.cli.chart import _ways
 from glrt.cli.commands import run
+from glrt.cli.moving_options import ways_of
 from glrt.core.errors import UsageError
 from glrt.gpu.context import Context
 from glrt.image.sources import load
@@ -136,7 +136,7 @@ def test_wrls_is_charted_by_each_predictor() -> None:
     arguments = Namespace(
         temporal="reset,wrls,reset", predictor="published,delayed", traced="8", factor="4"
     )
-    assert [way.name for way in _ways(arguments)] == ["reset", "wrls", "wrls delayed"]
+    assert [way.name for way in ways_of(arguments)] == ["reset", "wrls", "wrls delayed"]
     assert {name: way.predictor for name, way in WAYS.items()} == {
         **dict.fromkeys(("reset", "reproject", "taa", "ataa", "wrls"), "published"),
         **dict.fromkeys(("upsample", "upsample 2", "upsample 8"), "published"),
@@ -146,7 +146,7 @@ def test_wrls_is_charted_by_each_predictor() -> None:
 
 def test_ataa_is_charted_by_each_number_of_samples() -> None:
     arguments = Namespace(temporal="taa,ataa", predictor="published", traced="2,8,16", factor="4")
-    first, *ways = _ways(arguments)
+    first, *ways = ways_of(arguments)
     assert first.mode == "taa"
     assert [(way.name, way.traced) for way in ways] == [("ataa 2", 2), ("ataa", 8), ("ataa 16", 16)]
 

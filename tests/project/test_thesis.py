@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import pytest
 
-from glrt.cli import chart, stress
+from glrt.cli import moving_options, stress
 from glrt.cli.commands import parse
 from glrt.core.errors import GlrtError
 from glrt.image.sources import load_recipe
@@ -75,8 +75,8 @@ def _check_command(words: list[str]) -> None:
         if scene:
             load_recipe(scene)
     if arguments.command == "chart":
-        chart._ways(arguments)
-        chart._hysteresis(arguments)
+        moving_options.ways_of(arguments)
+        moving_options.hysteresis_of(arguments)
     if arguments.command == "stress":
         stress.known_cases(arguments.cases)
 
