@@ -26,6 +26,7 @@ Programs, `python -m bench.NAME`; `--help` lists their options:
 - films: whether a film takes longer than its stills
 - foggy: samples of lamps along segments through fog
 - terms: terms of light by several methods, and their cost
+- effects: light and rays of each effect of method hybrid
 - probe_shares: cost and lag of live probes that are updated in turn
 - window_tour: frame times of the window, driven by a script
 - drags: whether the picture in the window follows a drag

@@ -3,6 +3,7 @@
 import json
 import os
 import pty
+import re
 import signal
 import subprocess
 import sys
@@ -260,11 +261,12 @@ def test_scene_beyond_the_loop_limit_is_refused(tmp_path: Path, context: Context
 
 
 def test_inspect_names_features_in_and_out() -> None:
-    done = glrt("inspect", "sky")
+    done = glrt("inspect", "sky", "--all")
     assert done.returncode == 0
-    lines = {line[5:20].strip(): line[:3] for line in done.stdout.splitlines()}
-    assert lines["planes"] == "in "
-    assert lines["background"] == "in "
+    rows = [re.split("  +", line) for line in done.stdout.splitlines()]
+    lines = {row[1]: row[0] for row in rows if len(row) == 3}
+    assert lines["planes"] == "in"
+    assert lines["background"] == "in"
     assert lines["light sampling"] == "out"
 
 

@@ -110,7 +110,10 @@ WAYS = [  # a crowd has too many shapes to be baked; particles and probes have n
 ]
 
 
-@pytest.mark.slow_cases("by constants-tier-baked", "by constants-pipeline-fragment")
+@pytest.mark.slow_cases(
+    *("by constants-tier-baked", "by constants-pipeline-fragment"),
+    *("drawn-tier-baked", "drawn-pipeline-fragment"),
+)
 @pytest.mark.parametrize(("name", "key", "way"), WAYS)
 def test_tiers_and_pipelines(
     software: Context, usual: Image, name: str, key: str, way: str

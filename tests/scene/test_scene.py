@@ -24,7 +24,7 @@ from glrt.scene.shapes.kinds import KINDS
 from glrt.scene.shapes.plane import Plane
 from glrt.scene.shapes.quad import Quad
 from glrt.scene.shapes.sphere import Sphere
-from glrt.settings import RenderSettings
+from glrt.settings import EFFECTS, RenderSettings
 from tests.support.bad_scenes import GOOD_SCENE, changed
 
 MINIMAL: dict[str, Any] = {
@@ -90,6 +90,7 @@ def test_what_a_file_leaves_out_has_the_documented_defaults() -> None:
         "samples": 256,
         "bounces": 10,
         "method": "mis",
+        "effects": EFFECTS,
         "phong": None,
     }
     assert (scene.camera.up, scene.camera.fov, scene.camera.defocus_angle) == ((0, 1, 0), 45, 0)

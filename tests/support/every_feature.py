@@ -159,6 +159,7 @@ def hazy() -> Scene:
     )
 
 
+TRACED = ("shadows", "reflections", "refractions", "ambient_occlusion")  # not light by probes
 RENDERS: dict[str, tuple[Scene, dict[str, Any]]] = {
     "still life": (still_life(), {"method": "mis"}),
     "still life by a model": (still_life(), {"method": "whitted"}),
@@ -169,4 +170,5 @@ RENDERS: dict[str, tuple[Scene, dict[str, Any]]] = {
     "shared places": (shared_places(), {"method": "resampled", "reuse": "both", "probes": 2}),
     "pictured": (pictured(), {"method": "mis", "roulette": False}),
     "hazy": (hazy(), {"method": "mis"}),
+    "drawn": (mapped(), {"method": "hybrid", "effects": TRACED}),
 }
