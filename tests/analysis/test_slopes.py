@@ -12,7 +12,7 @@ from glrt.analysis.chart.experiment import Experiment, Plan, measure_scene
 from glrt.analysis.variants import Variant, variants_of
 from glrt.gpu.context import Context
 from glrt.image.sources import load
-from glrt.plan.methods import METHODS
+from glrt.plan.methods import METHODS, traits_of
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
 from tests.support.builders import box_of_quads, lamp, quad, scene_of
@@ -40,7 +40,7 @@ def measure_alone(
     monkeypatch: pytest.MonkeyPatch, folder: Path, least: int, has_probes: bool
 ) -> None:
     def variants(scene: Scene, settings: Settings) -> list[Variant]:
-        methods = [name for name, traits in METHODS.items() if traits.has_probes == has_probes]
+        methods = [it for it in METHODS if traits_of(Settings(method=it)).has_probes == has_probes]
         return variants_of(scene, settings, methods, leads=not has_probes)
 
     monkeypatch.setenv("XDG_CACHE_HOME", str(folder))

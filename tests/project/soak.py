@@ -57,9 +57,12 @@ def all_scenes() -> list[Scene]:
     return [*found, everything(), crowd(40), crowd(200), crowd(3000)]
 
 
+TRACING = [name for name, traits in METHODS.items() if not traits.rasters]  # with media, too
+
+
 def any_settings(chance: random.Random) -> dict[str, Any]:
     """Settings that are valid for every scene."""
-    sampler, method = chance.choice(get_args(Sampler)), chance.choice(get_args(Method))
+    sampler, method = chance.choice(get_args(Sampler)), chance.choice(TRACING)
     if METHODS[method].has_probes:
         sampler = "sobol"
     return {
