@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from glrt.analysis import plot
+from glrt.analysis import plot, reference
 from glrt.analysis.chart import drawing, experiment
 from glrt.analysis.chart.curves import Curve, Interval, Point
 from glrt.analysis.chart.experiment import Plan, measure_scene
@@ -247,7 +247,8 @@ def test_variants_beyond_the_loop_limit_are_left_out(
     context: Context, tmp_path: Path, scenes: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    monkeypatch.setattr(schedule, "usable_rounds", lambda _context: 300)
+    for module in (schedule, reference):
+        monkeypatch.setattr(module, "usable_rounds", lambda _context: 300)
     scene = load(str(scenes / "lamp.toml"))
     result = measure_scene("c", scene, Plan(8, 2, 0.1), context, tmp_path / "r", lambda *_: None)
     names = [curve.name for curve in result.curves]
