@@ -112,6 +112,9 @@ pictures = {
 first, *others = pictures.values()
 assert all((first == other).all() for other in others)
 assert abs(first.mean() / expected - 1) < 0.01, (first.mean(), expected)
+raster = glrt.render(scene, width=64, height=64, bounces=0, samples=64, method="hybrid",
+                     effects=())
+assert (raster.radiance == first).all(), "a raster finds what rays find"
 lit = glrt.render(scene, samples=16, width=32, height=32, method="mis")
 assert lit.radiance.mean() > first.mean()
 away = [{**ring, "center": [0.0, float(k), 40.0], "name": None} for k in range(40)]
