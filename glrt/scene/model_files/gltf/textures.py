@@ -39,8 +39,7 @@ class TextureTables:
         if uv is None:
             return None
         found: dict[str, Any] = {"image": file, **self._placing(info, here), "uv": uv}
-        wraps = tuple(_WRAPS.get(sampler.get(key, 10497), "repeat") for key in ("wrapS", "wrapT"))
-        found["wrap"] = wraps
+        found["wrap"] = tuple(_wrap(sampler.get(key)) for key in ("wrapS", "wrapT"))
         if sampler.get("magFilter") == _NEAREST:
             found["filter"] = "nearest"
         return found
@@ -79,3 +78,8 @@ class TextureTables:
                 number(own["rotation"], f"{here}: rotation", -1e4, 1e4)
             )
         return found
+
+
+def _wrap(code: Any) -> str:
+    """Return what lies beyond the edges of an image; a code of none of the kinds is the usual."""
+    return next((word for known, word in _WRAPS.items() if known == code), "repeat")
