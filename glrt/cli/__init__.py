@@ -5,12 +5,9 @@ Modules, each importing only what stands above it:
 - options: options that commands share
 - request: scene, settings and limits of a command line
 - autosave: files saved now and then
-- warnings: warnings about a finished picture
-- render_report: report of a finished render
+- reports: what commands report of pictures
 - caustics: choice of particles where the command line leaves it open
-- progress: the progress bar
 - render: `glrt render`
-- film_report: report of a film
 - film_jobs: jobs of render farms
 - film: `glrt film`
 - view: `glrt view`

@@ -6,7 +6,6 @@ from typing import Any
 
 from glrt.cli.caustics import with_caustics
 from glrt.cli.film_jobs import EXPORTS, job
-from glrt.cli.film_report import Reporter, named
 from glrt.cli.options import (
     SCENE,
     add_context,
@@ -17,6 +16,7 @@ from glrt.cli.options import (
     error_limit,
     is_automatic,
 )
+from glrt.cli.reports.film_report import Reporter, named
 from glrt.cli.request import order
 from glrt.core.errors import RenderError, UsageError
 from glrt.core.text import counted

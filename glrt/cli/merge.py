@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 
 from glrt.cli.options import add_outputs, add_summary
-from glrt.cli.warnings import doubt, too_dark
+from glrt.cli.reports.warnings import doubt, too_dark
 from glrt.core.errors import UsageError
 from glrt.core.text import counted
 from glrt.image.image import Image, check_writable, read_recipe

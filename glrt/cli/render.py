@@ -20,7 +20,7 @@ from glrt.cli.options import (
     error_limit,
     is_automatic,
 )
-from glrt.cli.render_report import Done, report
+from glrt.cli.reports.render_report import Done, report
 from glrt.cli.request import Order, frame_of, opened, order
 from glrt.core.errors import RenderError, UsageError
 from glrt.core.text import counted
@@ -217,7 +217,7 @@ def _watch(
     if arguments.quiet or not sys.stderr.isatty():
         yield autosave.after
         return
-    from glrt.cli.progress import progress_bar
+    from glrt.cli.reports.progress import progress_bar
 
     with progress_bar(limits, begun) as show:
 

@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 
-from glrt.cli import progress
-from glrt.cli.progress import Forecast
+from glrt.cli.reports import progress
+from glrt.cli.reports.progress import Forecast
 from glrt.rendering.stopping import Limits
 from glrt.settings import MAX_SAMPLES
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from bench.fooling_scenes import fooling_scene, metal_balls
-from glrt.cli.warnings import doubt
+from glrt.cli.reports.warnings import doubt
 from glrt.error import reliability
 from glrt.error.estimate import relative_error
 from glrt.error.reliability import LEAST_OBSERVATIONS, is_doubtful

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from glrt.cli.main import main
-from glrt.cli.render_report import Done
+from glrt.cli.reports.render_report import Done
 from glrt.gpu import driver_checks
 from glrt.gpu.context import Context
 from glrt.gpu.driver_checks import usable_rounds

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from glrt.cli.progress import film_bar
+from glrt.cli.reports.progress import film_bar
 from glrt.core.text import counted
 from glrt.process.command import file_names, print_figures
 from glrt.rendering.renderer import Renderer

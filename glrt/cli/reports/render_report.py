@@ -4,7 +4,7 @@ import argparse
 import sys
 from typing import Any, NamedTuple
 
-from glrt.cli.warnings import clipped, doubt, too_dark
+from glrt.cli.reports.warnings import clipped, doubt, too_dark
 from glrt.core.text import counted
 from glrt.denoise.filters import least_samples
 from glrt.image.image import Image
