@@ -179,3 +179,13 @@ def test_what_the_table_does_not_name_is_refused(monkeypatch: pytest.MonkeyPatch
     monkeypatch.setattr("glrt.plan.combinations._WORKS", table)
     with pytest.raises(UsageError, match="A crop and AOVs do not go together: nobody has tried"):
         check([Way.AOV, Way.CROP])
+
+
+@pytest.mark.parametrize("other", [Way.FRAGMENT, Way.LAYERS])
+def test_a_refusal_of_hybrid_by_its_probes_names_the_effect_that_needs_them(other: Way) -> None:
+    ways = (Way.HYBRID, Way.PROBES, other)
+    with pytest.raises(UsageError, match=r"Leave gi out of the effects\.$"):
+        check(ways)
+    with pytest.raises(UsageError) as refused:
+        check(ways[1:])
+    assert "effects" not in str(refused.value)

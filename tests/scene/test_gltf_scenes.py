@@ -122,6 +122,18 @@ def test_textures_have_their_channels_and_factors(tmp_path: Path) -> None:
     assert files_of(scene) == ["thing.glb"]
 
 
+@pytest.mark.parametrize("code", [[33071], {}, "repeat", 7])
+def test_a_wrap_that_is_no_code_is_the_usual_one(code: Any, tmp_path: Path) -> None:
+    builder = Builder()
+    image = {"index": builder.texture(COLORS, wrapS=code)}
+    material = builder.add(
+        "materials", {"name": "m", "pbrMetallicRoughness": {"baseColorTexture": image}}
+    )
+    builder.shown(square(builder, material=material))
+    found = principled(load(saved(tmp_path, builder)))
+    assert found.textures["color"].wrap == ("repeat", "repeat")
+
+
 def test_glass_with_a_label(tmp_path: Path) -> None:
     builder = Builder()
     image = {"index": builder.texture(COLORS)}
