@@ -10,9 +10,9 @@ from glrt.analysis.method_choice.candidate import OfProbes
 from glrt.analysis.method_choice.search import WITHOUT_PROBES
 from glrt.gpu.context import Context
 from glrt.image.sources import load
-from glrt.plan.methods import METHODS
+from glrt.plan.methods import traits_of
 from glrt.rendering.probe_tracer import LOOKS, PUSHED, RAYS, UPDATES
-from glrt.settings import settings_for
+from glrt.settings import Settings, settings_for
 from tests.support.builders import MATTE, scene_of, sphere
 from tests.support.verdicts import candidate, of_bias, verdict_on
 
@@ -76,6 +76,6 @@ def test_probes_are_tried_where_that_is_asked_for(context: Context) -> None:
 
 def test_what_chooses_by_itself_leaves_probes_out(context: Context) -> None:
     """An estimated error does not include what probes blur."""
-    assert not any(METHODS[name].has_probes for name in WITHOUT_PROBES)
+    assert not any(traits_of(Settings(method=name)).has_probes for name in WITHOUT_PROBES)
     found = verdict_on(load("methods/open"), 0.3, context).candidates
-    assert not any(METHODS[each.settings.method].has_probes for each in found)
+    assert not any(traits_of(each.settings).has_probes for each in found)
