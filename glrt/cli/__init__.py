@@ -5,7 +5,7 @@ Modules, each importing only what stands above it:
 - options: options that commands share
 - request: scene, settings and limits of a command line
 - autosave: files saved now and then
-- reports: what commands report of pictures
+- reports: reports of pictures
 - caustics: choice of particles where the command line leaves it open
 - render: `glrt render`
 - film_jobs: jobs of render farms

@@ -1,4 +1,4 @@
-"""What commands report of pictures: on the way, and at the end.
+"""Reports of pictures: on the way, and at the end.
 
 Modules, each importing only what stands above it:
 
