@@ -6,6 +6,7 @@ from typing import Any
 
 from glrt.settings import Cost
 from glrt.view.panels.plots import figures
+from tests.window.gestures import move
 from tests.window.hand import Hand, check
 
 
@@ -66,3 +67,25 @@ def the_figures_report_error_and_forecast(hand: Hand) -> None:
     assert re.search(r"error [\d.]+ % \([\d.]+ to [\d.]+\)", told), told
     assert "of rendering" in told or "is reached" in told
     assert app.progress.looks[0].error > app.progress.looks[-1].error > 0
+
+
+@check
+def a_checkbox_switches_each_effect_of_hybrid(hand: Hand) -> None:
+    """Shadows and indirect light: what is lost with them comes back with them."""
+    session = hand.session
+    hand.ctx.set_ref("Controls")
+    move(hand, "method/hybrid", None)
+    hand.until(lambda: not session.is_behind and session.samples >= 4)
+    assert session.settings.method == "hybrid"
+    whole = hand.pixels()[..., :3].mean()
+    hand.there(lambda: session.edit(effects=("shadows",)))
+    hand.until(lambda: not session.is_behind and session.samples >= 4)
+    direct = hand.pixels()[..., :3].mean()
+    assert direct < 0.9 * whole
+    for effects, clicked in ((), "shadows"), (("shadows",), "shadows"), (("shadows", "gi"), "gi"):
+        move(hand, clicked, None)
+        hand.until(lambda: not session.is_behind and session.samples >= 4)
+        assert session.settings.effects == effects
+        assert session.last_cost is Cost.RECOMPILE
+        assert not session.problem
+    assert hand.pixels()[..., :3].mean() > direct
