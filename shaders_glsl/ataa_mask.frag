@@ -10,6 +10,8 @@ uniform vec3 before_up;
 uniform vec3 before_forward;
 uniform vec2 before_frame;
 uniform vec2 before_origin;
+uniform sampler2D motion;
+uniform int moved;
 
 #include "passes/reprojection.glsl"
 #include "temporal/ataa.glsl"

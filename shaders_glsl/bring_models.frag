@@ -11,6 +11,8 @@ uniform vec3 before_up;
 uniform vec3 before_forward;
 uniform vec2 before_frame;
 uniform vec2 before_origin;
+uniform sampler2D motion;
+uniform int moved;
 
 #include "passes/reprojection.glsl"
 
@@ -22,7 +24,7 @@ layout(location = 1) out vec4 row[7];  // zeros where the surface was not seen
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);
     vec4 surface = texelFetch(position, texel, 0);
-    vec4 facing = texelFetch(normal, texel, 0);
+    vec4 facing = facing_before(surface, texelFetch(normal, texel, 0));
     vec3 seen = seen_before(surface);
     vec2 place = place_before(seen);
     ivec2 source = NO_TEXEL;

@@ -10,6 +10,8 @@ uniform vec3 before_up;
 uniform vec3 before_forward;        // unit
 uniform vec2 before_frame;          // size of its full frame, pixels
 uniform vec2 before_origin;         // origin of its crop
+uniform sampler2D motion;           // objects that moved (glrt/rendering/history/motion.py)
+uniform int moved;                  // its rows
 
 #include "passes/reprojection.glsl"
 
@@ -25,7 +27,7 @@ out vec4 brought;
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);
     vec4 surface = texelFetch(position, texel, 0);
-    vec4 facing = texelFetch(normal, texel, 0);
+    vec4 facing = facing_before(surface, texelFetch(normal, texel, 0));
     vec3 seen = seen_before(surface);
     vec2 place = place_before(seen);
     brought = vec4(0.0);

@@ -55,6 +55,7 @@ _ALL = (
     Case("sparks", "Fireflies in a denoised picture", denoising.sparks),
     Case("speed", "History while the camera moves", moving.speed),
     Case("reflection", "History of what a mirror shows", moving.reflection),
+    Case("crossing", "History of an object that moves", moving.crossing),
     Case("step", "History under light that changes", moving.step),
     Case("flicker", "History under light that flickers", moving.flicker),
     Case("uncovered", "History where an edge uncovers a wall", moving.uncovered),

@@ -1,4 +1,4 @@
-"""The camera moves: whether history makes the picture worse than the film alone."""
+"""Camera or objects move: whether history makes the picture worse than the film alone."""
 
 import math
 import statistics
@@ -21,6 +21,8 @@ SPEEDS = (0.1, 0.3, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0)  # pixels a frame, of what 
 FRAMES, SIDE, TRUE = 8, 40, 4096
 PLACES = 4  # camera moves whose squared errors are averaged
 SAMPLES = 16  # samples per pixel of a frame
+AWAY = 3.5  # distance of the camera from the plane through 0
+TALL = 2 * AWAY * math.tan(math.radians(20))  # what the picture shows of that plane
 MODES = ("reproject", "taa", "ataa", "wrls", "wrls delayed", "upsample", "reset")
 CHOSEN, NAIVE = "reproject", "history that stays in its pixels"
 WORSE = 1.1  # times the error of `reset`, at most
@@ -71,12 +73,49 @@ def reflection(lab: Lab) -> Sweep:
     return replace(_sideways(lab, scene), bound=None, promise="none")
 
 
-def _sideways(lab: Lab, scene: Scene) -> Sweep:
-    """Errors by the speed of a camera that is 3.5 units before the plane through 0."""
-    tall = 2 * 3.5 * float(np.tan(np.radians(20)))  # what the picture shows of that plane
+def crossing(lab: Lab) -> Sweep:
+    """Error on a matte ball that goes past a still camera, by its speed.
+
+    It ends in the middle of the picture, where its outline is a circle. The lamp stays, so that
+    the light on the ball changes while it moves.
+    """
+    ball, radius = np.array([0.0, 0.5, 0.0]), 0.5
+
+    def scene(place: float) -> Scene:
+        return scene_of(
+            [
+                plane([0, 0, 0], [0, 1, 0], "floor"),
+                sphere([place, *ball[1:]], radius, "matte"),
+                sphere([0.4, 3, 1.2], 0.5, "lamp"),
+            ],
+            {"floor": matte(0.7), "matte": matte(0.5), "lamp": lamp(9.0)},
+            {"position": [0, ball[1], AWAY], "look_at": [*ball], "fov": 40},
+        )
+
+    offsets = np.arange(SIDE) + 0.5 - SIDE / 2
+    outline = radius / math.sqrt(AWAY**2 - radius**2) / math.tan(math.radians(20)) * SIDE / 2
+    inside = np.hypot(*np.meshgrid(offsets, offsets)) < outline - 1
+    truths = _truths(lab, scene(0.0))
     errors: dict[str, list[float]] = {name: [] for name in (NAIVE, *MODES)}
     for pixels in SPEEDS:
-        step = pixels * tall / SIDE
+        places = [(frame - FRAMES + 1) * pixels * TALL / SIDE for frame in range(FRAMES)]
+        moves = Frames("crossing", tuple(map(scene, places)))
+        _add_errors(lab, moves, truths, errors, 1, inside)
+    return Sweep(
+        parameter="speed of the ball, in pixels a frame",
+        measure=f"relative RMS error on the ball, after {FRAMES} frames of one sample",
+        x=SPEEDS,
+        promise=f"at most {WORSE:g} times that of reset",
+        bound=[WORSE * error for error in errors["reset"]],
+        **_curves(errors),
+    )
+
+
+def _sideways(lab: Lab, scene: Scene) -> Sweep:
+    """Errors by the speed of a camera that is AWAY from the plane through 0."""
+    errors: dict[str, list[float]] = {name: [] for name in (NAIVE, *MODES)}
+    for pixels in SPEEDS:
+        step = pixels * TALL / SIDE
         places = [(frame - FRAMES + 1) * step for frame in range(FRAMES)]
         moves = Frames("pan", tuple(_aside(scene, place) for place in places))
         truths = _truths(lab, moves.scenes[-1])
@@ -169,7 +208,7 @@ def uncovered(lab: Lab) -> Sweep:
     truths = _truths(lab, scene)
     errors: dict[str, list[float]] = {name: [] for name in (NAIVE, *MODES)}
     for width in BANDS:
-        band = slice(SIDE // 2, SIDE // 2 + width)
+        band = np.s_[:, SIDE // 2 : SIDE // 2 + width]
         aside = width / SIDE * 2 * math.tan(math.radians(20)) * 3 / 2
         moves = Frames("pan", (*[_aside(scene, -aside)] * BEFORE, scene))
         _add_errors(lab, moves, truths, errors, 1, band)
@@ -189,7 +228,7 @@ def _add_errors(
     truths: list[Any],
     errors: dict[str, list[float]],
     samples: int,
-    columns: slice = slice(None),
+    where: Any = ...,
 ) -> None:
     """Append the errors of the last frame by each mode, and of the pixelwise mean of all frames."""
     squares: dict[str, list[float]] = {name: [] for name in errors}
@@ -198,7 +237,7 @@ def _add_errors(
         pictures = {NAIVE: np.mean(shown["reset"], axis=0)}
         pictures |= {mode: screens[-1] for mode, screens in shown.items()}
         for name, picture in pictures.items():
-            squares[name].append(_squared(picture, truths, columns))
+            squares[name].append(_squared(picture, truths, where))
     for name, found in squares.items():
         errors[name].append(_root(found))
 
@@ -225,11 +264,11 @@ def _truths(lab: Lab, scene: Scene) -> list[Any]:
     ]
 
 
-def _squared(picture: Any, truths: list[Any], columns: slice = slice(None)) -> float:
+def _squared(picture: Any, truths: list[Any], where: Any = ...) -> float:
     first, second = truths
     mean = (first + second) / 2
     scale = mean**2 + 0.01 * mean.mean() ** 2
-    return float(((picture - first) * (picture - second) / scale)[:, columns].mean())
+    return float(((picture - first) * (picture - second) / scale)[where].mean())
 
 
 def _root(squares: list[float]) -> float:

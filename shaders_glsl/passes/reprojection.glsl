@@ -13,9 +13,40 @@ const float LEAST_SHARE = 0.01;                // least weight of the nearest fo
 const vec2 NO_PLACE = vec2(-1.0);
 const ivec2 NO_TEXEL = ivec2(-1);
 
+// The row of `motion` for an object, by 1 + its number; -1 for one that did not move. Rows are in order of numbers.
+int row_of(float object) {
+    int low = 0;
+    int high = moved;
+    while (low < high) {
+        int middle = (low + high) / 2;
+        if (texelFetch(motion, ivec2(0, middle), 0).x < object) low = middle + 1;
+        else high = middle;
+    }
+    if (low == moved || texelFetch(motion, ivec2(0, low), 0).x != object) return -1;
+    return low;
+}
+
+// Three texels of a row as a matrix, times a vector.
+vec3 by_texels(int row, int first, vec4 vector) {
+    vec3 product = vec3(dot(texelFetch(motion, ivec2(first, row), 0), vector),
+                        dot(texelFetch(motion, ivec2(first + 1, row), 0), vector),
+                        dot(texelFetch(motion, ivec2(first + 2, row), 0), vector));
+    return product;
+}
+
 // A surface relative to the eye before; a direction where the ray meets nothing, which is infinitely far.
 vec3 seen_before(vec4 surface) {
-    return surface.w > 0.0 ? surface.xyz + eye_shift : surface.xyz;
+    if (surface.w <= 0.0) return surface.xyz;
+    int row = row_of(surface.w);
+    if (row < 0) return surface.xyz + eye_shift;
+    return by_texels(row, 1, vec4(surface.xyz, 1.0));
+}
+
+// The normal that a surface had before; flags stay.
+vec4 facing_before(vec4 surface, vec4 facing) {
+    int row = surface.w > 0.0 ? row_of(surface.w) : -1;
+    if (row < 0) return facing;
+    return vec4(normalize(by_texels(row, 4, vec4(facing.xyz, 0.0))), facing.w);
 }
 
 // Its place in the view before; NO_PLACE behind the eye of that view and outside its picture.

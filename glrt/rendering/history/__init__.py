@@ -3,6 +3,7 @@
 Modules, each importing only what stands above it:
 
 - drawn_pass: a fragment shader over all pixels
+- motion: how objects moved between two views
 - gbuffer: first surface of each pixel (G-buffer)
 - reprojection: an earlier view projected to the current one
 - history_filter: interface of the temporal modes

@@ -1,7 +1,8 @@
 """Reproject what was shown of one view to another: history follows the surfaces.
 
 History is taken over from a pixel with the same object, as far from the eye within 2 %, and facing
-the same way within 25 degrees (shaders_glsl/passes/reprojection.glsl).
+the same way within 25 degrees (shaders_glsl/passes/reprojection.glsl). Objects that moved take
+their history along.
 """
 
 from typing import Any, NamedTuple
@@ -41,11 +42,13 @@ def between(now: Surfaces, before: Surfaces) -> tuple[dict[str, moderngl.Texture
     settings = before.settings
     axes = screen_axes(before.scene.camera, settings.width / settings.height)
     shift = np.subtract(now.scene.camera.position, before.scene.camera.position, dtype=np.float64)
+    motion = now.motion.between(now.scene, before.scene)
     textures = {
         "position": now.position,
         "normal": now.normal,
         "before_position": before.position,
         "before_normal": before.normal,
+        "motion": motion or now.position,
     }
     values = {
         "eye_shift": shift,
@@ -53,7 +56,8 @@ def between(now: Surfaces, before: Surfaces) -> tuple[dict[str, moderngl.Texture
         "before_frame": np.array([settings.width, settings.height]),
         "before_origin": np.array(settings.crop[:2] if settings.crop else (0, 0)),
     }
-    return textures, {name: tuple(map(float, value)) for name, value in values.items()}
+    found: dict[str, Any] = {name: tuple(map(float, value)) for name, value in values.items()}
+    return textures, {**found, "moved": motion.height if motion else 0}
 
 
 class Reprojection:

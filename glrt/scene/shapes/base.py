@@ -11,7 +11,7 @@ from pydantic import Field
 
 from glrt.scene.shapes.faces import Faces
 from glrt.scene.shapes.flat_faces import FlatFace
-from glrt.scene.shapes.texture_axes import TextureAxes
+from glrt.scene.shapes.texture_axes import TextureAxes, axes_across
 from glrt.scene.values import Name, Tagged, Vector
 from glrt.settings import Cost, Editable
 
@@ -115,6 +115,13 @@ class Object(Tagged):
         """The frame that turns and grows with the shape: that of the world, unless it has one."""
         low, high = self.bounds(np.array([self.row], np.float64))
         return Frame(np.eye(3), np.zeros(3), low[0], high[0])
+
+    @property
+    def placement(self) -> Array:
+        """Axes and origin, (3, 4), of a frame fixed to the surface: it moves, turns and grows."""
+        frame = self.frame
+        size = frame.high - frame.low
+        return np.column_stack([frame.axes * np.where(size == 0, 1.0, size), frame.middle])
 
     @property
     def lamp_body(self) -> LampBody | None:
@@ -228,6 +235,13 @@ def ring(center: Array, normal: Array, radius: float) -> Array:
     angles = 2 * math.pi * np.arange(_CORNERS)[:, None] / _CORNERS
     points: Array = center + radius * (np.cos(angles) * u + np.sin(angles) * np.cross(normal, u))
     return points
+
+
+def about_axis(axis: Any, middle: Any, radius: float = 1.0, half: float = 1.0) -> Array:
+    """Return axes and origin, (3, 4), of a frame whose third axis lies along `axis`, (3,)."""
+    unit = np.array(axis, np.float64) / np.linalg.norm(axis)
+    u, v = axes_across(unit)
+    return np.column_stack([radius * u, radius * v, half * unit, middle])
 
 
 def unsigned(normal: Vector) -> Array:

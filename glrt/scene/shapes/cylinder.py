@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal, Self
 import numpy as np
 from pydantic import Field, create_model, model_validator
 
-from glrt.scene.shapes.base import NO_POLYGONS, UP, Array, Object, dots, ring
+from glrt.scene.shapes.base import NO_POLYGONS, UP, Array, Object, about_axis, dots, ring
 from glrt.scene.shapes.box import nearest_of_two
 from glrt.scene.shapes.faces import STEPS, Faces, circle, faces_of_triangles
 from glrt.scene.shapes.flat_faces import FlatFace
@@ -110,6 +110,11 @@ class Cylinder(_Ended):
         """Middle, axis, half of the height, radius, and 1 with caps: 9 numbers."""
         axis = map(float, self.axis)
         return [*self.middle, *axis, self.half, self.radius, float(self.capped)]
+
+    @property
+    def placement(self) -> Array:
+        """Axes and origin, (3, 4): radius and half of the height are 1 there."""
+        return about_axis(self.axis, self.middle, self.radius, self.half)
 
     def outline(self, about: Array) -> Array:
         """Return ends relative to `about`, radius and caps, (2, 5)."""

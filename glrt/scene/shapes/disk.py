@@ -11,6 +11,7 @@ from glrt.scene.shapes.base import (
     Array,
     LampBody,
     Sided,
+    about_axis,
     ring,
     to_planes,
     unsigned,
@@ -64,6 +65,11 @@ class Disk(Sided):
     def row(self) -> list[float]:
         """Centre, normal and radius: 7 numbers."""
         return [*self.center, *self.normal, self.radius]
+
+    @property
+    def placement(self) -> Array:
+        """Axes and origin, (3, 4): the disk has unit radius there."""
+        return about_axis(self.normal, self.center, self.radius, self.radius)
 
     def outline(self, about: Array) -> Array:
         """Return centre relative to `about`, radius and normal, (1, 7)."""

@@ -11,6 +11,7 @@ from glrt.scene.shapes.base import (
     UP,
     Array,
     Cornerless,
+    about_axis,
     to_planes,
     unsigned,
 )
@@ -61,6 +62,11 @@ class Plane(Cornerless):
     def row(self) -> list[float]:
         """Point and normal: 6 numbers."""
         return [*self.point, *self.normal]
+
+    @property
+    def placement(self) -> Array:
+        """Axes and origin, (3, 4), at its point, without a scale."""
+        return about_axis(self.normal, self.point)
 
     def outline(self, about: Array) -> Array:
         """Return the normal and the height over `about`, (1, 4)."""

@@ -73,6 +73,13 @@ class Quad(Sided):
         """Corner and edges: 9 numbers."""
         return [*self.corner, *self.edge_u, *self.edge_v]
 
+    @property
+    def placement(self) -> Array:
+        """Axes and origin, (3, 4): both edges, and a normal that grows as they do."""
+        across = np.cross(self.edge_u, self.edge_v)
+        normal = across / math.sqrt(float(np.linalg.norm(across)))
+        return np.column_stack([self.edge_u, self.edge_v, normal, self.middle])
+
     def outline(self, about: Array) -> Array:
         """Return the corners relative to `about`, (4, 3)."""
         corners: Array = self.polygons[0] - about

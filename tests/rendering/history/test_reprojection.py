@@ -98,6 +98,13 @@ def test_what_was_hidden_has_no_history(context: Context) -> None:
     assert not (found[..., 3] == 0).any(axis=0)[edge + 6 : -5].any()
 
 
+@pytest.fixture
+def _motion_is_unknown(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As of a mesh whose vertices moved."""
+    monkeypatch.setattr("glrt.rendering.history.motion.moved_objects", lambda now, before: [])
+
+
+@pytest.mark.usefixtures("_motion_is_unknown")
 def test_another_object_in_its_place_gives_nothing(context: Context) -> None:
     """A wall of two parts, whose seam moves by 6 pixels: what lies between is another one's now."""
 
@@ -112,6 +119,7 @@ def test_another_object_in_its_place_gives_nothing(context: Context) -> None:
     assert (found[:, middle + 7 :, 3] > 0).all()
 
 
+@pytest.mark.usefixtures("_motion_is_unknown")
 def test_a_surface_that_has_turned_gives_nothing(context: Context) -> None:
     """It turns by more than 25 degrees; the place on the axis of the turn stays the same."""
 
@@ -127,6 +135,7 @@ def test_a_surface_that_has_turned_gives_nothing(context: Context) -> None:
         assert (found[:, middle, 3] > 0).any() == is_kept
 
 
+@pytest.mark.usefixtures("_motion_is_unknown")
 def test_a_surface_that_has_come_nearer_gives_nothing(context: Context) -> None:
     """It has come nearer by more than 2 % of its distance."""
 
