@@ -23,6 +23,7 @@ ON_OLD_DRIVERS = (
     "paths_are_shown_or_refused_by_name",
 )
 SLOW = (  # half a second each, or more
+    "a_ready_made_material_replaces_all_values",
     "a_checkbox_switches_each_effect_of_hybrid",
     "rows_end_below_the_bar",
     "the_panel_goes_to_the_paths_of_a_pixel_whatever_was_used_before",

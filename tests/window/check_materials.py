@@ -85,3 +85,17 @@ def glass_is_tinted_and_nests(hand: Hand) -> None:
     hand.settle()
     assert (its(hand).attenuation_color, its(hand).attenuation_distance) == (None, None)
     assert not hand.session.problem
+
+
+@check
+def a_ready_made_material_replaces_all_values(hand: Hand) -> None:
+    show(hand, {"type": "metal", "color": [0.9, 0.6, 0.3], "roughness": 0.2})
+    move(hand, "ready-made##material it/copper", None)
+    hand.settle()
+    assert (its(hand).preset, its(hand).color, its(hand).roughness) == ("copper", None, 0)
+    before = hand.pixels()
+    move(hand, "ready-made##material it/rubber", None)
+    hand.settle()
+    assert (its(hand).type, its(hand).roughness) == ("principled", 0.75)
+    assert (hand.pixels() != before).any()
+    assert not hand.session.problem

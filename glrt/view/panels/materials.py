@@ -19,6 +19,7 @@ from glrt.scene.shapes.kinds import Shape
 from glrt.settings import Cost
 from glrt.view.app import App
 from glrt.view.controls import Control, choice, controls_of, switch
+from glrt.view.edits.ready_materials import READY, ready_name, with_ready
 from glrt.view.edits.scene_edits import (
     unused_materials,
     with_cone,
@@ -59,6 +60,11 @@ _KINDS = {
 TYPE = replace(
     choice("type", _TYPE, Cost.RECOMPILE, tuple(TYPES)), told=tuple(_KINDS[kind] for kind in TYPES)
 )
+_READY = "values of a common metal, glass, plastic or paint, in place of those below"
+READY_MADE = replace(
+    choice("ready-made", _READY, Cost.RECOMPILE, tuple(READY)),
+    told=tuple(_KINDS[ready.type] for ready in READY.values()),
+)
 MATERIAL = choice("material", _MATERIAL, Cost.RECOMPILE)
 
 
@@ -73,8 +79,11 @@ def draw_material(app: App, index: int, shape: Shape) -> None:
     if _commands(app, index, name):
         return
     material = scene.materials[name]
+    ready = edited(READY_MADE, ready_name(material), f"material {name}")
     kind = edited(TYPE, material.type, f"material {name}")
-    if kind is not None:
+    if ready is not None:
+        app.edit_scene("", partial(with_ready, name=name, ready=ready))
+    elif kind is not None:
         app.edit_scene("", partial(with_retyped, name=name, kind=kind))
     elif wanted := _another_way(material, name):
         app.edit_scene("", partial(with_material, name=name, **wanted))
