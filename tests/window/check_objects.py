@@ -206,8 +206,8 @@ def what_edits_of_an_object_cost_stands_next_to_them(hand: Hand) -> None:
         patch.setattr(objects, "tag", marks.append)
         hand.window.app.selected = number
         hand.ctx.yield_(2)
-    expected = {"material": Cost.RECOMPILE, "type": Cost.RECOMPILE, "handles": Cost.RESTART}
-    assert costs == expected
+    words = dict.fromkeys(("material", "ready-made", "type"), Cost.RECOMPILE)
+    assert costs == {**words, "handles": Cost.RESTART}
     assert set(marks) == {Cost.RECOMPILE}  # of new objects
     hand.ctx.set_ref("Controls")
     hand.ctx.combo_click("material/red")
