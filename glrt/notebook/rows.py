@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from glrt.core.memo import kept_for_the_same
 from glrt.notebook.messages import LIGHT
 from glrt.settings import Settings
 from glrt.view.controls import MEANING, Control, controls_of
@@ -10,12 +11,13 @@ from glrt.view.state.session import Session
 
 Row = dict[str, Any]  # values of JSON
 
+_lights = kept_for_the_same(dimmable_lights)  # a scene may have thousands of objects
 _SAMPLES = next(control for control in controls_of(Settings) if control.name == "samples")
 
 
 def rows_of(session: Session) -> list[Row]:
     """Return a row for bounces, samples, and the intensity of each light group."""
-    settings, lights = session.settings, dimmable_lights(session.scene)
+    settings, lights = session.settings, _lights(session.scene)
     return [
         _row("bounces", bounces_control(session), settings.bounces),
         _row("samples", _SAMPLES, settings.samples),
