@@ -129,8 +129,10 @@ def test_a_slider_changes_the_picture(page: Driven) -> None:
     assert codes(page).mean() > 1.3 * before.mean()
 
 
-def test_a_closed_cell_gets_no_more_pictures(page: Driven) -> None:
+def test_closed_pictures_and_cells_get_no_more_pictures(page: Driven) -> None:
     refined(page)
+    assert told(page, "lamps.close()") == ""
+    page.until("document.querySelectorAll('.glrt-show').length === 1")
     page.value("jupyterapp.commands.execute('editmenu:clear-all')")
     page.until("document.querySelectorAll('.glrt-show').length === 0")
     end = time.monotonic() + PATIENCE
