@@ -23,6 +23,7 @@ from glrt.view.edits.edited_state import State
 from glrt.view.figure_texts import error_text, forecast, samples_text, unknown_text
 from glrt.view.state.error_history import PAUSE, Progress
 from glrt.view.state.frame_budget import FrameBudget
+from glrt.view.state.idle_kernel import IdleKernel
 from glrt.view.state.preferences import Preferences
 from glrt.view.state.session import Session
 from glrt.view.viewport import orbit
@@ -42,10 +43,14 @@ class Live:
         target: float = HABITS.target_error,
         shared: SharedContext = SHARED,
         clock: Callable[[], float] = time.perf_counter,
+        at_rest: Callable[[], IdleKernel | None] = IdleKernel,
     ) -> None:
-        """Compile nothing yet; `target` is the relative error of the forecast."""
+        """Compile nothing yet; `target` is the relative error of the forecast.
+
+        `at_rest` makes what takes a faster kernel into use while nothing moves, or None.
+        """
         self._state, self._first = State(scene, settings), scene.camera
-        self._target, self._shared, self._clock = target, shared, clock
+        self._target, self._shared, self._clock, self._at_rest = target, shared, clock, at_rest
         self._session: Session | None = None
         self._display: Display | None = None
         self._forget()
@@ -103,9 +108,8 @@ class Live:
     def _opened(self) -> Session:
         if self._session is None:
             with self._shared.turn() as context:
-                self._session = Session(
-                    self._state.scene, self._state.settings, context, self._clock
-                )
+                opened = self._state.scene, self._state.settings, context, self._clock
+                self._session = Session(*opened, rest=self._at_rest())
                 self._display = Display(context.gl)
                 self._pace = FrameBudget(RATES[context.is_software])
                 self._session.moving.use(Way(HABITS.temporal, HABITS.predictor))

@@ -1,6 +1,7 @@
 """Fixtures: pictures without a notebook, by a clock that tests move on."""
 
 from collections.abc import Iterator
+from functools import partial
 from typing import Any
 
 import pytest
@@ -9,9 +10,10 @@ from glrt.gpu.context import Context
 from glrt.notebook.live import Live
 from glrt.notebook.shared_context import SharedContext
 from glrt.settings import settings_for
+from glrt.view.state.idle_kernel import IdleKernel
 from tests.notebook.answers import Opening
 from tests.support.mixed_scene import everything
-from tests.support.sessions import Clock
+from tests.support.sessions import Clock, Stage
 from tests.view.conftest import clock, dispatches_by_clock
 
 __all__ = ["clock", "dispatches_by_clock"]
@@ -30,15 +32,20 @@ class Given(SharedContext):
 
 @pytest.fixture
 def opened(fresh: Context, clock: Clock, dispatches_by_clock: None) -> Iterator[Opening]:
-    """Opens pictures of one scene, by the given settings, in one context."""
+    """Opens pictures of one scene, by the given settings, in one context.
+
+    The processes that compile ahead are played if there is a `stage`; else there are none.
+    """
     opened, shared = list[Live](), Given(fresh)
     clock.step = STEP
 
-    def opening(**given: Any) -> Live:
+    def opening(stage: Stage | None = None, **given: Any) -> Live:
         scene = everything()
         sizes = {"width": 16, "height": 16, "bounces": 3, "samples": 1000}
         settings = settings_for(scene.render, **{**sizes, **given})
-        opened.append(Live(scene, settings, shared=shared, clock=clock))
+        at_rest = partial(IdleKernel, clock, stage) if stage else lambda: None
+        ways: dict[str, Any] = {"shared": shared, "clock": clock, "at_rest": at_rest}
+        opened.append(Live(scene, settings, **ways))
         return opened[-1]
 
     yield opening

@@ -9,9 +9,10 @@ from glrt.core.errors import UsageError
 from glrt.notebook.live import MOST_WAITS, Live
 from glrt.rendering.renderer import Renderer
 from glrt.view.state.error_history import PAUSE
+from glrt.view.state.idle_kernel import PAUSE as REST
 from glrt.view.state.preview_size import STILL
 from tests.notebook.answers import Opening, asked, begun, codes, costs, row, samples
-from tests.support.sessions import Clock
+from tests.support.sessions import Clock, Stage
 
 
 def distance(live: Live) -> float:
@@ -182,3 +183,18 @@ def test_pictures_of_one_context_do_not_disturb_each_other(opened: Opening) -> N
     asked(one, turn=[0.3, 0])
     one.rest()
     assert samples(asked(other, 4)) > before
+
+
+@pytest.mark.slow
+def test_a_picture_at_rest_takes_a_faster_kernel_and_keeps_its_samples(
+    opened: Opening, clock: Clock
+) -> None:
+    live = opened(Stage(), seed=3)
+    begun(live)
+    before = samples(asked(live, 3))
+    clock.now += STILL + REST
+    after = asked(live, 4)
+    assert live._session
+    assert live._session.renderer
+    assert live._session.renderer.is_baked
+    assert samples(after) >= before

@@ -4,6 +4,7 @@ import base64
 import json
 import os
 import subprocess
+import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -13,13 +14,21 @@ from typing import Any
 from tests.support.browser import browser
 
 PATIENCE = 120.0  # seconds until something must be so
+# Starts a program that reads from descriptor 3 and writes to 4, as Chromium does with its pipes.
+ON_3_AND_4 = """
+import fcntl, os, sys
+reading, writing = (fcntl.fcntl(int(it), fcntl.F_DUPFD, 10) for it in sys.argv[1:3])
+os.dup2(reading, 3)
+os.dup2(writing, 4)
+os.execv(sys.argv[3], sys.argv[3:])
+"""
 
 
 class Driven:
     """One page of a browser."""
 
-    def __init__(self, reading: int, writing: int) -> None:
-        self._reading, self._writing = reading, writing
+    def __init__(self, reading: int, writing: int, log: Path) -> None:
+        self._reading, self._writing, self._log = reading, writing, log
         self._pending, self._number, self._session = b"", 0, ""
         target = self.send("Target.createTarget", url="about:blank")["targetId"]
         self._session = self.send("Target.attachToTarget", targetId=target, flatten=True)[
@@ -43,7 +52,7 @@ class Driven:
     def _next(self) -> dict[str, Any]:
         while b"\0" not in self._pending:
             more = os.read(self._reading, 1 << 20)
-            assert more, "the browser has ended"
+            assert more, f"the browser has ended: {self._log.read_text()[-2000:]}"
             self._pending += more
         message, _, self._pending = self._pending.partition(b"\0")
         found: dict[str, Any] = json.loads(message)
@@ -86,14 +95,14 @@ def driven(profile: Path) -> Iterator[Driven]:
     of_browser, to_browser = os.pipe()
     options = ("--no-sandbox", "--disable-gpu", "--remote-debugging-pipe")
     command = [browser(), *options, f"--user-data-dir={profile}", "about:blank"]
-    # It reads commands from descriptor 3 and writes to 4.
-    started = ["/bin/sh", "-c", f'exec "$@" 3<&{of_browser} 4>&{for_it}', "sh", *command]
-    errors = profile.with_suffix(".log").open("wb")
+    started = [sys.executable, "-c", ON_3_AND_4, str(of_browser), str(for_it), *command]
+    log = profile.with_suffix(".log")
+    errors = log.open("wb")
     process = subprocess.Popen(started, pass_fds=(of_browser, for_it), stderr=errors)
     os.close(of_browser)
     os.close(for_it)
     try:
-        yield Driven(from_browser, to_browser)
+        yield Driven(from_browser, to_browser, log)
     finally:
         process.kill()
         process.wait()
