@@ -26,6 +26,7 @@ Modules and packages, each importing only what stands above it:
 - lab: scenes on which methods fail, for `glrt stress`
 - view: the window
 - api: public functions that no other module defines
+- notebook: live pictures in notebooks
 - testing: a pytest plugin that compares pictures with references
 - cli: the commands
 - __main__: `python -m glrt`
@@ -44,6 +45,7 @@ if TYPE_CHECKING:
     from glrt.image.image import Image
     from glrt.image.merge import merge
     from glrt.image.sources import load
+    from glrt.notebook.show import show
     from glrt.rendering.paths.values import Contribution, Path, PathVertex, PixelPaths
     from glrt.rendering.renderer import Renderer
     from glrt.scene.camera import Camera
@@ -113,6 +115,7 @@ __all__ = [
     "merge",
     "paths",
     "render",
+    "show",
 ]
 
 __version__ = VERSION
@@ -159,6 +162,7 @@ _HOMES = {
     "merge": "image.merge",
     "paths": "api",
     "render": "api",
+    "show": "notebook.show",
 }
 
 

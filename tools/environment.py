@@ -21,7 +21,7 @@ State = dict[str, Any]
 UNFINISHED: State = {"unfinished": True}
 STATE_FILE = "glrt-setup.json"
 EXTRAS = {
-    "bench": "[dev,mitsuba]",
+    "bench": "[dev,mitsuba,jupyter]",
     "check": "[dev]",
     "render": "",
     "test": "[dev]",
@@ -31,7 +31,7 @@ BRINGS = {
     "": [""],
     "[view]": ["", "[view]"],
     "[dev]": ["", "[view]", "[dev]"],
-    "[dev,mitsuba]": ["", "[view]", "[dev]", "[dev,mitsuba]"],
+    "[dev,mitsuba,jupyter]": ["", "[view]", "[dev]", "[dev,mitsuba,jupyter]"],
 }
 COVERS = {  # by system libraries
     "bench": ("check", "render", "test", "view"),

@@ -17,10 +17,10 @@ def kept_for_the_same(function: Callable[..., Result]) -> Callable[..., Result]:
     @wraps(function)
     def remembered(*given: object) -> Result:
         nonlocal known
-        is_known = known and len(known[0]) == len(given)
-        if not known or not is_known or not all(map(_is_same, known[0], given)):
-            known = given, function(*given)
-        return known[1]
+        last = known  # another thread may replace it at any moment
+        if not last or len(last[0]) != len(given) or not all(map(_is_same, last[0], given)):
+            known = last = given, function(*given)
+        return last[1]
 
     return remembered
 

@@ -22,6 +22,7 @@ from glrt.scene.model_files.gltf.lights import lights_of
 from glrt.scene.model_files.mesh_formats import FORMATS, GLTF
 from glrt.scene.scene import Scene
 from glrt.scene.schema.validation import validated
+from glrt.scene.shapes.mesh import Mesh
 from glrt.scene.studio import LEAST_RADIUS, lights_itself, with_studio
 
 Table = dict[str, Any]
@@ -66,6 +67,21 @@ def model_scene(path: Path, folder: AssetFolder, source: str, variant: str | Non
         tables["objects"][0]["material"] = "clay"
     scene = with_files(validated(Scene, tables, source), reader, source, Lambertian(color=CLAY))
     return scene if has_lights or lights_itself(scene) else with_studio(scene, source)
+
+
+def mesh_scene(mesh: Mesh, source: str) -> Scene:
+    """Return the scene of a mesh of arrays, of clay in a studio, seen from three quarters above.
+
+    Colours of its vertices multiply that of the clay. Raises `SceneError`, which begins with
+    `source`.
+    """
+    placed = mesh.model_copy(update={"material": "clay"})
+    tables: Table = {
+        "materials": {"clay": Lambertian(color=CLAY)},
+        "objects": [placed],
+        **_view(mesh.triangles_of_file),
+    }
+    return with_studio(validated(Scene, tables, source), source)
 
 
 def _animate(tables: Table, poses: Poses) -> None:

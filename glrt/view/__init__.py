@@ -10,6 +10,7 @@ Modules, each importing only what stands above it:
 - edits: edits of a scene and its settings, with undo
 - event_wait: no frames while nothing changes
 - state: values and pure functions behind the window
+- figure_texts: figures of a picture as text
 - widgets: widgets that several panels use
 - file_dialogs: the desktop's file dialogs, or that of the window
 - viewport: the picture, picking, and moves of the camera

@@ -18,7 +18,7 @@ ROOT = Path(__file__).parents[2]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
 FOLDERS = ("glrt", "shaders_glsl", "scenes")
 SUFFIXES = {
-    "glrt": {".py", ".typed", ".npz", ".txt", ".html"},
+    "glrt": {".py", ".typed", ".npz", ".txt", ".html", ".js", ".css"},
     "shaders_glsl": {".glsl", ".comp", ".vert", ".frag"},
     "scenes": {".toml", ".ply", ".glb", ".npy"},
 }

@@ -1,5 +1,8 @@
 """Results that are kept while what they were made of is the same object."""
 
+import pytest
+
+from glrt.core import memo
 from glrt.core.memo import kept_for_the_same
 
 
@@ -18,3 +21,21 @@ def test_a_result_is_kept_for_the_same_objects_and_no_others() -> None:
     assert length(one, other) == 4
     assert length(one) == 2
     assert len(asked) == 4
+
+
+def test_a_result_is_not_that_of_another_thread(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The other thread has its turn between the comparison and the return."""
+
+    @kept_for_the_same
+    def length(given: list[int]) -> int:
+        return len(given)
+
+    def is_same(known: object, given: object) -> bool:
+        monkeypatch.setattr(memo, "_is_same", lambda *_: False)
+        length([1])
+        return known is given
+
+    pair = [1, 2]
+    length(pair)
+    monkeypatch.setattr(memo, "_is_same", is_same)
+    assert length(pair) == 2

@@ -144,13 +144,13 @@ def test_tests_add_packages_to_the_environment_of_a_render(
     assert all(is_ready(checkout, purpose) for purpose in ("check", "render", "test"))
 
 
-def test_benchmarks_and_ci_add_mitsuba_which_tests_do_without(
+def test_benchmarks_and_ci_add_mitsuba_and_jupyter_which_tests_do_without(
     checkout: Path, commands: list[list[str]]
 ) -> None:
     environment.make(str(checkout), "test", [])
     assert not is_ready(checkout, "bench")
     environment.make(str(checkout), "bench", [])
-    assert commands[-1][-1].endswith("[dev,mitsuba]")
+    assert commands[-1][-1].endswith("[dev,mitsuba,jupyter]")
     assert all(is_ready(checkout, purpose, strict=True) for purpose in ("check", "test", "bench"))
     assert system.LLVM in system.WANTED["bench"]
     assert system.LLVM not in system.WANTED["test"]

@@ -39,6 +39,16 @@ def needs_mitsuba() -> None:
     needs(is_there, "Mitsuba: type pip install 'glrt[mitsuba]'")
 
 
+def needs_widgets() -> None:
+    """The widgets of notebooks, an extra."""
+    needs(find_spec("anywidget") is not None, "anywidget: type pip install 'glrt[notebook]'")
+
+
+def needs_jupyter() -> None:
+    """JupyterLab with its kernel, an extra of its own."""
+    needs(find_spec("jupyterlab") is not None, "JupyterLab: type pip install 'glrt[jupyter]'")
+
+
 def needs_osmesa() -> None:
     """OSMesa. Mesa 25.1 removed it: where apt does not know its package, CI skips the test, too."""
     is_there = bool(find_library("OSMesa"))

@@ -10,7 +10,7 @@ from glrt.error.estimate import Band
 from glrt.gpu.context import Context
 from glrt.image.sources import load
 from glrt.plan.plan import ONE, Weight
-from glrt.view.panels.plots import error_text, forecast
+from glrt.view.figure_texts import error_text, forecast
 from glrt.view.state.error_history import EMPTY, GROWTH, PAUSE, Look, Progress, look_at
 from tests.support.mixed_scene import everything
 from tests.support.renders import rendering

@@ -6,6 +6,7 @@ from glrt.phong import Phong
 from glrt.scene.materials.metal import Metal
 from glrt.view.controls import Control, controls_of
 from glrt.view.panels import lights, panel
+from glrt.view.state import costs
 from glrt.view.state.explanations import EXPLANATIONS, explanation_of
 
 
@@ -16,7 +17,7 @@ def test_controls_of_paths_explain_themselves(name: str) -> None:
     assert len(text) > 100
 
 
-@pytest.mark.parametrize("control", [lights.INTENSITY, lights.EMISSION])
+@pytest.mark.parametrize("control", [costs.INTENSITY, lights.EMISSION])
 def test_lamps_explain_themselves_under_any_name(control: Control) -> None:
     for name in ("emission", "intensity"):
         for row in (name, f"blue {name}", f"lamp 2 {name}"):

@@ -8,6 +8,7 @@ from imgui_bundle import imgui
 from glrt.settings import Cost, Settings
 from glrt.view.controls import Control
 from glrt.view.panels import background, lights, panel, sun
+from glrt.view.state import costs
 from glrt.view.widgets import fields
 from tests.window.check_preferences import CHOICES
 from tests.window.gestures import click_twice, move, to_label
@@ -15,7 +16,7 @@ from tests.window.hand import Hand, check
 
 # Each control by its label in the panel: the control, and what to do to it.
 MOVES: dict[str, tuple[Control, Any]] = {
-    "intensity##lamp": (lights.INTENSITY, 3.0),
+    "intensity##lamp": (costs.INTENSITY, 3.0),
     "emission##lamp/##emission/$$0": (lights.EMISSION.costing(Cost.RELIGHT), 2.0),
     "bounces": (panel.SETTINGS["bounces"], 1),
     "bounces live": (panel.LIVE, None),

@@ -6,17 +6,15 @@ from imgui_bundle import imgui
 
 from glrt.core.memo import kept_for_the_same
 from glrt.plan.methods import traits_of
-from glrt.scene.lit_scene import SKY_GROUP
 from glrt.scene.materials.base import Opaque
 from glrt.scene.materials.light import Light
 from glrt.scene.scene import Scene, with_lights
 from glrt.view.app import App
-from glrt.view.controls import control_of_items, controls_of
+from glrt.view.controls import controls_of
 from glrt.view.edits.scene_edits import with_material
-from glrt.view.state.costs import cost_of_light, cost_of_tint
+from glrt.view.state.costs import cost_of_tint, dimmable_lights, intensity_control
 from glrt.view.widgets.fields import edited
 
-INTENSITY = control_of_items(Scene, "lights")
 EMISSION = next(c for c in controls_of(Light) if c.name == "emission")
 _NO_ROOM = (
     "At this size the driver has no room to keep the light of each lamp or bounce apart: a change "
@@ -58,7 +56,7 @@ def draw_lamp(app: App, name: str, group: str) -> None:
 
 
 def _intensity(app: App, group: str, value: float, row: str, key: str) -> None:
-    control = INTENSITY.named(row).costing(cost_of_light(app.session, group))
+    control = intensity_control(app.session, group, row)
     new = edited(control.back_to(_opened(app.session.opened.scene).get(group)), value, key)
     if new is not None:
         app.edit_scene(f"light {group}", partial(with_lights, intensities={group: new}))
@@ -86,8 +84,7 @@ def _opened(scene: Scene) -> dict[str, float]:
 @kept_for_the_same
 def _groups(scene: Scene) -> tuple[dict[str, float], dict[str, list[str]]]:
     """Return the intensity and the lamps of each light group; a material is in one group only."""
-    has_sky = any(map(any, scene.background.gradient))
-    intensities = {g: x for g, x in scene.light_groups.items() if g != SKY_GROUP or has_sky}
+    intensities = dimmable_lights(scene)
     first = {finish.material: finish.group for finish in reversed(scene.finishes) if finish.group}
     lamps: dict[str, list[str]] = {}
     for name, material in scene.materials.items():

@@ -28,7 +28,7 @@ from glrt.view.panels.lights import draw_lights
 from glrt.view.panels.objects import draw_object
 from glrt.view.panels.pixel_paths import draw_pixel_paths
 from glrt.view.panels.sun import draw_sun
-from glrt.view.state.costs import reach_of_bounces, reach_of_size
+from glrt.view.state.costs import bounces_control, reach_of_size
 from glrt.view.state.explanations import EFFECT_TEXTS
 from glrt.view.state.preferences import Preferences
 from glrt.view.state.session import Session
@@ -126,9 +126,7 @@ def _with_camera(scene: Scene, **changes: Any) -> Scene:
 
 def _paths(app: App) -> None:
     session = app.session
-    reach = reach_of_bounces(session)
-    bounces = SETTINGS["bounces"].costing(Cost.RELIGHT if reach else Cost.RESTART, reach)
-    opened = session.opened.settings
+    opened, bounces = session.opened.settings, bounces_control(session)
     _edit(app, edited_fields((bounces,), dict(session.settings), opened=opened))
     if session.pipeline == "compute":
         is_live = edited(LIVE, session.by_length)

@@ -9,11 +9,16 @@ from glrt.core.memo import kept_for_the_same
 from glrt.plan.explanation import explain
 from glrt.plan.plan import Plan
 from glrt.process.load import MISSING, LoadMeter
-from glrt.settings import MAX_SAMPLES
 from glrt.view.app import App
 from glrt.view.compared_picture import Slot
+from glrt.view.figure_texts import (
+    error_text,
+    forecast,
+    percent_text,
+    samples_text,
+    unknown_text,
+)
 from glrt.view.state.error_history import Look, Progress
-from glrt.view.state.session import Session
 from glrt.view.widgets.fields import tip
 
 _MOST_TICKS = 5  # of an axis: more labels would overlap
@@ -22,8 +27,6 @@ _DOT = 2.5  # pixels: radius of a look in the plot
 _BLUE, _ORANGE = ImVec4(0.30, 0.58, 0.90, 1.0), ImVec4(0.85, 0.58, 0.13, 1.0)
 _GRAY, _GREEN = ImVec4(0.6, 0.6, 0.6, 1.0), ImVec4(0.30, 0.66, 0.36, 1.0)
 _BESIDE = 36  # em: in a narrower part of the window, the plot is below the text
-
-_DOUBT = ",\nnot to be believed: few samples carry much of the light"
 
 
 def draw_figures(app: App) -> None:
@@ -47,9 +50,9 @@ def figures(app: App) -> list[str]:
     rate = work * width * height / max(session.rendering, 1e-9)
     preview = " (coarse while it moves)" if session.is_preview else ""
     lines = [
-        _samples(session.samples, session.settings.samples) + preview,
+        samples_text(session.samples, session.settings.samples) + preview,
         f"{rate / 1e6:.2f} million samples/s, {1e3 * app.frame_seconds:.0f} ms a frame",
-        f"error {error_text(progress.last) if progress.last else _unknown(session)}",
+        f"error {error_text(progress.last) if progress.last else unknown_text(session)}",
         forecast(progress, app.preferences.target_error, session.settings.samples),
         load_text(app.load),
     ]
@@ -64,8 +67,8 @@ def short_figures(app: App) -> str:
     """Return samples, error and frames a second, in one line."""
     session, last, load = app.session, app.progress.last, app.load.last
     parts = [
-        _samples(session.samples, session.settings.samples),
-        f"{_percent(last.error)}" if last else "",
+        samples_text(session.samples, session.settings.samples),
+        f"{percent_text(last.error)}" if last else "",
         f"{load.rate:.3g} frames/s" if load else "",
     ]
     return "  ".join(filter(None, parts))
@@ -89,64 +92,6 @@ def _slot_text(slot: Slot) -> str:
     session, last = slot.session, slot.progress.last
     error = f"error {error_text(last)}" if last else "error unknown"
     return session.busy or f"A: {session.samples} samples in {session.rendering:.1f} s, {error}"
-
-
-def forecast(progress: Progress, target: float, samples: int) -> str:
-    """Return when the error will reach the target, and the samples that it needs if too few."""
-    seconds, needed = progress.remaining(target), progress.samples_to(target)
-    if seconds is None or needed is None:
-        return f"{_percent(target)}: time not known yet"
-    if seconds == 0:
-        return f"{_percent(target)} is reached"
-    if needed > MAX_SAMPLES:
-        return f"{_percent(target)} takes more samples than a picture holds"
-    more = f": raise samples to {needed:,}" if needed > samples else ""
-    return f"{_percent(target)} in about {_duration(seconds)} of rendering{more}"
-
-
-def _samples(done: int, wanted: int) -> str:
-    if done > wanted:
-        return f"{done} samples, {wanted} are wanted"
-    return f"{done} of {wanted} samples"
-
-
-def _unknown(session: Session) -> str:
-    """Return why the error is unknown, and from when on it is known."""
-    if session.moving.is_shown(session.renderer, session.settings.samples):
-        return "unknown while history of earlier views is shown"
-    if session.is_passing and not session.is_preview:
-        return "unknown while probes are live"
-    if session.samples >= session.known_from and not session.is_preview:
-        return "unknown until the picture is read"
-    more = f": raise samples to {session.known_from}"
-    is_short = session.settings.samples < session.known_from
-    return f"unknown, known from {session.known_from} samples on{more if is_short else ''}"
-
-
-def error_text(look: Look) -> str:
-    """Return the error of a look, with a note if it may be far too small."""
-    return f"{_banded(look)}{_DOUBT if look.is_doubtful else ''}"
-
-
-def _banded(look: Look) -> str:
-    """Return the error and its confidence band, with enough digits to distinguish its ends."""
-    error, low, high = (100 * part for part in look.band)
-    if not 0 < high - low < math.inf:
-        return f"{error:.2g} %, estimated"
-    digits = min(max(0, 1 - math.floor(math.log10(high - low))), 4)
-    return f"{error:.{digits}f} % ({low:.{digits}f} to {high:.{digits}f}), estimated"
-
-
-def _percent(error: float | None) -> str:
-    return "not known yet" if error is None else f"{100 * error:.2g} %"
-
-
-def _duration(seconds: float) -> str:
-    units = (("days", 86400), ("hours", 3600), ("minutes", 60))
-    for name, unit in units:
-        if seconds >= 2 * unit:
-            return f"{seconds / unit:.0f} {name}"
-    return f"{seconds:.0f} s"
 
 
 def _kernel(app: App) -> None:

@@ -1,4 +1,4 @@
-"""Present cost of an edit, which depends on the layers of the film."""
+"""Present cost of an edit, which depends on the layers of the film, and controls with it."""
 
 from typing import Literal
 
@@ -8,10 +8,30 @@ from glrt.plan.plan import MOST_LAYERS, layer_of_group
 from glrt.scene.lit_scene import SKY_GROUP, SUN_GROUP, Finish
 from glrt.scene.scene import Scene
 from glrt.scene.values import Radiance
-from glrt.settings import Cost
+from glrt.settings import Cost, Settings
+from glrt.view.controls import Control, control_of_items, controls_of
 from glrt.view.state.session import Session
 
 Reach = tuple[int, Cost]  # the largest value with the usual cost, and the cost beyond it
+INTENSITY = control_of_items(Scene, "lights")
+BOUNCES = next(control for control in controls_of(Settings) if control.name == "bounces")
+
+
+def intensity_control(session: Session, group: str, name: str) -> Control:
+    """Return the control of a light group's intensity, under a name."""
+    return INTENSITY.named(name).costing(cost_of_light(session, group))
+
+
+def bounces_control(session: Session) -> Control:
+    """Return the control of the limit of bounces."""
+    reach = reach_of_bounces(session)
+    return BOUNCES.costing(Cost.RELIGHT if reach else Cost.RESTART, reach)
+
+
+def dimmable_lights(scene: Scene) -> dict[str, float]:
+    """Return the intensity of each light group; that of the background unless it is black."""
+    has_sky = any(map(any, scene.background.gradient))
+    return {g: x for g, x in scene.light_groups.items() if g != SKY_GROUP or has_sky}
 
 
 def cost_of_light(session: Session, group: str) -> Cost:
