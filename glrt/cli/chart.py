@@ -97,7 +97,9 @@ def run(arguments: argparse.Namespace) -> int:
         try:
             with _progress(arguments.quiet) as tell:
                 report_or_stop = _stopping(tell, interruption)
-                work = partial(_temporal, TrackPlan(ways, kept, REFERENCE)) if ways else _chart
+                rounds = plan.rounds if arguments.milliseconds else 0
+                shown = TrackPlan(ways, kept, REFERENCE, rounds=rounds)
+                work = partial(_temporal, shown) if ways else _chart
                 work(scenes, plan, outputs, arguments.context, report_or_stop)
         except KeyboardInterrupt:
             print(f"glrt: interrupted; {_left(outputs.folder)}.", file=sys.stderr)
@@ -197,6 +199,8 @@ def _plan(arguments: argparse.Namespace) -> Plan:
         raise UsageError(f"--curve may be given at most {MOST_NAMED} times.")
     if named and arguments.temporal is not None:
         raise UsageError("--curve names variants of methods, and --temporal charts none: omit one.")
+    if arguments.milliseconds and arguments.temporal is None:
+        raise UsageError("--milliseconds times frames while something moves: give --temporal.")
     return Plan(arguments.height, arguments.rounds, arguments.seconds, named)
 
 

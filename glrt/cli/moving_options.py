@@ -20,8 +20,14 @@ def add_moving(parser: argparse.ArgumentParser) -> None:
         "--temporal",
         metavar="MODE,...",
         help="chart the error of what the window shows while the camera moves and after the light "
-        f"changes, in place of methods; of {', '.join(get_args(Mode))}. No clock is read: --rounds "
-        "and --seconds are not used",
+        f"changes, in place of methods; of {', '.join(get_args(Mode))}. No clock is read without "
+        "--milliseconds: --rounds and --seconds are not used",
+    )
+    parser.add_argument(
+        "--milliseconds",
+        action="store_true",
+        help="with --temporal, chart the error against the median milliseconds of a frame, too, "
+        "over --rounds rounds in which the modes take turns",
     )
     parser.add_argument(
         "--predictor",

@@ -19,7 +19,7 @@ from glrt.comparison.html import Compared, entry_of
 from glrt.comparison.result import Comparison
 from glrt.comparison.verdict import compare
 from glrt.core import files
-from glrt.core.errors import GlrtError
+from glrt.core.errors import GlrtError, UsageError
 from glrt.gpu.context import Context, open_context
 from glrt.image.image import Image
 from glrt.image.sources import load
@@ -72,11 +72,7 @@ class Pictures:
             has_its_size = reference and reference.radiance.shape == image.radiance.shape
             found = compare(image, reference, self.alpha) if reference and has_its_size else None
             if self.parts and reference and found is not None:
-                shown = entry_of(Compared(name, image, reference, found))
-                self.parts.mkdir(parents=True, exist_ok=True)
-                number = hashlib.sha256(self.test.encode()).hexdigest()[:16]
-                part = self.parts / f"{number}-{self.checked}.json"
-                files.write_text(part, json.dumps(shown))
+                self._add_to_page(entry_of(Compared(name, image, reference, found)))
             passing = ("same",) if strict else ("same", "undecided")
             if found is not None and found.verdict in passing:
                 self._forget(name)
@@ -109,7 +105,10 @@ class Pictures:
         with _failures():
             file, reference = self._reference(name, ".bits.exr")
             image = render(scene, samples, _context(), **settings)
-            if reference and _bits(reference) == _bits(image):
+            is_same = reference is not None and _bits(reference) == _bits(image)
+            if self.parts and reference:
+                self._add_bits_to_page(name, image, reference, is_same)
+            if is_same:
                 self._forget(name)
                 return image
             if self.update:
@@ -143,6 +142,23 @@ class Pictures:
         if self.update:
             return file, None
         raise self._failure(f"the reference {file} is missing", name)
+
+    def _add_bits_to_page(self, name: str, image: Image, reference: Image, is_same: bool) -> None:
+        """Add a picture whose bits were compared, if `compare` can compare it up to noise."""
+        try:
+            found = compare(image, reference, self.alpha)
+        except UsageError:
+            return
+        entry = entry_of(Compared(f"{name}, bits", image, reference, found))
+        entry["verdict"] = "same" if is_same else "different"
+        entry["text"] = "equal bits" if is_same else f"the bits differ; up to noise {found}"
+        self._add_to_page(entry)
+
+    def _add_to_page(self, entry: dict[str, Any]) -> None:
+        assert self.parts
+        self.parts.mkdir(parents=True, exist_ok=True)
+        number = hashlib.sha256(self.test.encode()).hexdigest()[:16]
+        files.write_text(self.parts / f"{number}-{self.checked}.json", json.dumps(entry))
 
     def _write(self, image: Image, file: Path) -> None:
         file.parent.mkdir(parents=True, exist_ok=True)

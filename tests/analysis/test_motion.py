@@ -173,7 +173,11 @@ def test_ataa_traces_as_many_samples_as_are_asked_for(context: Context) -> None:
 @pytest.mark.slow
 def test_the_command_writes_charts_and_a_page(tmp_path: Path) -> None:
     words = ["chart", "cornell", "-o", str(tmp_path), "--temporal", "reset,reproject"]
+    words += ["--milliseconds", "--rounds", "2"]
     assert run([*words, "--height", "16", "--quiet"]) == 0
+    [head, *lines] = (tmp_path / "cornell.temporal.csv").read_text().splitlines()
+    assert head.endswith(",error,milliseconds")
+    assert min(float(line.rpartition(",")[2]) for line in lines) > 0
     assert {file.name for file in tmp_path.iterdir()} == {
         PAGE,
         *(f"cornell.temporal.{suffix}" for suffix in ("svg", "png", "csv")),

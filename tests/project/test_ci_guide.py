@@ -1,5 +1,7 @@
 """The test of pictures that docs/how-to/ci.md gives people for their CI works."""
 
+import json
+import os
 import re
 import subprocess
 import sys
@@ -38,31 +40,65 @@ def project(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def run_pytest(project: Path, *options: str) -> tuple[int, str]:
     """Exit code and output of pytest there, in two processes."""
-    words = ["-q", "-p", "no:cacheprovider", "-n", "2", *options, "test_pictures.py"]
-    command = [sys.executable, "-m", "pytest", *words]
-    done = subprocess.run(command, cwd=project, capture_output=True, text=True, timeout=200)
-    return done.returncode, done.stdout
+    return run_step(project, f"pytest {' '.join(options)} test_pictures.py")
+
+
+def run_step(project: Path, step: str) -> tuple[int, str]:
+    """Exit code and output of a shell command there, with the programs of this environment."""
+    path = f"{Path(sys.executable).parent}:{os.environ['PATH']}"
+    more = {"PATH": path, "PYTEST_ADDOPTS": "-q -p no:cacheprovider -n 2"}
+    command = ["bash", "-e", "-c", step]
+    done = subprocess.run(
+        command,
+        cwd=project,
+        env={**os.environ, **more},
+        capture_output=True,
+        text=True,
+        timeout=200,
+    )
+    return done.returncode, done.stdout + done.stderr
+
+
+def steps() -> list[str]:
+    """The shell commands of the workflow that stand on one line, in order."""
+    return re.findall(r"^ +- run: (.+)$", block("yaml"), re.MULTILINE)
+
+
+def entries(page: Path) -> dict[str, str]:
+    """The verdict of each picture that a page shows, by its title."""
+    found = re.search(r'application/json">(.*?)</script>', page.read_text(), re.DOTALL)
+    assert found
+    return {entry["title"]: entry["verdict"] for entry in json.loads(found[1])}
+
+
+def test_the_workflow_installs_checks_and_tests() -> None:
+    programs = [step.split()[0] for step in steps()]
+    assert programs == ["pip", "glrt", "pytest"]
 
 
 @pytest.mark.slow
-def test_the_example_passes_on_a_right_picture(project: Path) -> None:
-    code, told = run_pytest(project)
-    assert code == 0, told
+def test_the_workflow_passes_on_a_right_picture(project: Path) -> None:
+    for step in steps()[1:]:  # without the network
+        code, told = run_step(project, step)
+        assert code == 0, told
     assert "1 passed" in told
+    assert entries(project / "page.html").keys() == {"room"}
+    assert entries(project / "page.html")["room"] != "different"
     assert not (project / "failed").exists()
 
 
 @pytest.mark.slow
-def test_the_example_fails_on_a_wrong_picture_and_shows_it(project: Path) -> None:
+def test_the_workflow_fails_on_a_wrong_picture_and_shows_it(project: Path) -> None:
     scene = project / "scenes" / "room.toml"
     right = scene.read_text()
     scene.write_text(right.replace("[7.6, 7.2, 6.5]", "[8.36, 7.92, 7.15]"))
     try:
-        code, told = run_pytest(project)
+        code, told = run_step(project, steps()[-1])
     finally:
         scene.write_text(right)
     assert code == 1, told
     assert "different" in told
+    assert entries(project / "page.html") == {"room": "different"}
     shown = sorted((project / "failed").iterdir())
     assert [file.name for file in shown] == [
         "room-difference.png",
@@ -72,6 +108,9 @@ def test_the_example_fails_on_a_wrong_picture_and_shows_it(project: Path) -> Non
     for file in shown:
         with Pillow.open(file) as picture:
             assert min(picture.size) >= 64
+    kept = block("yaml").rpartition("path: |")[2].split()
+    assert kept == ["failed/", "page.html"]
+    assert all((project / path).exists() for path in kept)
 
 
 @pytest.mark.slow

@@ -20,12 +20,16 @@ from glrt.scene.materials.light import Light
 from glrt.scene.scene import Scene
 from glrt.scene.scenefile.catalog import scene_names
 from glrt.scene.shapes.sphere import Sphere
+from glrt.setting_options import FrameOptions
 from glrt.settings import settings_for
+from glrt.testing import pictures
+from glrt.testing.pictures import Pictures
+from tests.support.alarms import ALPHA, book
 
 SMALL = 24  # pixels of the longer side
 
 
-def small_size(scene: Scene) -> dict[str, int]:
+def small_size(scene: Scene) -> FrameOptions:
     """Width and height of the scene's own aspect."""
     width, height = scene.render.width, scene.render.height
     scale = SMALL / max(width, height)
@@ -62,6 +66,21 @@ def test_a_scene_renders_to_something_finite_and_not_black(name: str, context: C
     assert (radiance.max(axis=2) > 0).mean() > 0.5
     assert 0.05 < radiance.mean() < 2  # exposure 0 suits it
     renderer.release()
+
+
+@pytest.fixture
+def shared_context(monkeypatch: pytest.MonkeyPatch, context: Context) -> None:
+    monkeypatch.setattr(pictures, "_context", lambda: context)
+
+
+@pytest.mark.slow_cases("shading", "smoke")
+@pytest.mark.parametrize("name", scene_names())
+@pytest.mark.usefixtures("shared_context")
+def test_a_scene_looks_as_it_did(name: str, picture: Pictures) -> None:
+    """Write references of scenes that are to look otherwise: pytest --glrt-update on this file."""
+    found = picture.check(name, **small_size(load(name)))
+    assert found is None or found.sensitivity.light < 0.2, "the noise hides what changes"
+    book(picture.alpha / ALPHA)
 
 
 @pytest.mark.parametrize("name", scene_names())

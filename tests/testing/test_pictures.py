@@ -1,5 +1,6 @@
 """The fixture `picture`: what passes, what fails, what it writes, and what it says."""
 
+import json
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -111,6 +112,25 @@ def test_bits_are_compared_on_one_driver(tmp_path: Path, monkeypatch: pytest.Mon
     assert "on a GPU, and the picture by" in failure(
         checker(tmp_path).same_bits, DIM, "ball", 4, **SIZE
     )
+
+
+def test_the_page_shows_bits_that_differ_even_below_the_noise(tmp_path: Path) -> None:
+    parts = tmp_path / "parts"
+    checker(tmp_path, update=True).same_bits(DIM, "ball", 32, sampler="independent", **SIZE)
+    with_page = replace(checker(tmp_path), parts=parts)
+    with_page.same_bits(DIM, "ball", 32, sampler="independent", **SIZE)
+    failure(with_page.same_bits, DIM, "ball", 32, seed=1, sampler="independent", **SIZE)
+    first, second = (json.loads(file.read_text()) for file in sorted(parts.iterdir()))
+    assert (first["title"], first["verdict"], first["text"]) == ("ball, bits", "same", "equal bits")
+    assert second["verdict"] == "different"
+    assert second["text"].startswith("the bits differ; up to noise undecided")
+
+
+def test_bits_without_errors_are_judged_without_a_part_of_the_page(tmp_path: Path) -> None:
+    checker(tmp_path, update=True).same_bits(DIM, "ball", 1, **SIZE)
+    with_page = replace(checker(tmp_path), parts=tmp_path / "parts")
+    with_page.same_bits(DIM, "ball", 1, **SIZE)
+    assert not (tmp_path / "parts").exists()
 
 
 def test_more_pictures_than_the_chance_is_divided_among_fail(tmp_path: Path) -> None:

@@ -4,6 +4,7 @@ Modules, each importing only what stands above it:
 
 - sequences: the scenes of a moving picture, frame by frame
 - playing: the pictures that a temporal mode shows of them
+- clock: milliseconds of their frames
 - measure: the error of these pictures, frame by frame
 - report: charts, a table, a page
 """

@@ -1,13 +1,16 @@
 """The error of what is on the screen, frame by frame, for each temporal mode.
 
-Frames and rays are counted, and no clock decides, so that each run gives the same figures.
+Frames and rays are counted, and no clock decides, so that each run gives the same figures. Only
+milliseconds, where a plan has rounds of them, differ from run to run.
 """
 
 import math
 from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
+from glrt.analysis.chart.curves import Interval
 from glrt.analysis.chart.rays import Rays, rays_of
+from glrt.analysis.motion.clock import milliseconds_of
 from glrt.analysis.motion.playing import Played, play
 from glrt.analysis.motion.sequences import Sequence as Frames
 from glrt.analysis.motion.sequences import light_step, orbit
@@ -64,6 +67,7 @@ class TrackPlan(NamedTuple):
     hysteresis: Sequence[float]  # of live probes: a track for each, and one with new probes
     reference_samples: int  # of each half of a frame's reference, at most
     samples: int = 1  # of each frame
+    rounds: int = 0  # in which frames are timed; 0: no clock is read
 
 
 class Track(NamedTuple):
@@ -73,6 +77,7 @@ class Track(NamedTuple):
     sequence: str
     mode: str  # and predictor
     seen: tuple[Seen, ...]
+    milliseconds: Interval | None = None  # of a frame: median and quartiles; None: not timed
 
     @property
     def mean_error(self) -> float:
@@ -114,6 +119,15 @@ def tracks_of(
             report(f"{name}, {frames.name}: {mode}", share)
             seen = _seen(frames, truth, rays[one.settings], context, one, plan.samples)
             found.append(Track(name, frames.name, mode, tuple(seen)))
+        if plan.rounds:
+
+            def begun(number: int, name: str = f"{name}, {frames.name}", done: int = place) -> None:
+                report(f"{name}: round {number + 1} of {plan.rounds}", (done + 1) / 2)
+
+            timed = frames, all_played, context, plan.samples, plan.rounds
+            times = milliseconds_of(*timed, begun)
+            modes = len(all_played)
+            found[-modes:] = [t._replace(milliseconds=times[t.mode]) for t in found[-modes:]]
     return found
 
 
@@ -133,7 +147,7 @@ def _seen(
     one: Played,
     samples: int,
 ) -> Iterator[Seen]:
-    first = 0 if frames.name == "orbit" else BEFORE
+    first = frames.first
     before = None
     more: list[float] = []
     for number, picture in enumerate(play(frames, one, context, samples, more)):

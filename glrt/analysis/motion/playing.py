@@ -1,5 +1,6 @@
 """Play a moving picture as a temporal mode shows it: without a window and without a clock."""
 
+import time
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
@@ -34,14 +35,16 @@ def play(
     context: Context,
     samples: int = 1,
     more: list[float] | None = None,
+    seconds: list[float] | None = None,
 ) -> Iterator[Picture]:
     """Yield what is on the screen at the end of each frame, with `samples` per pixel and frame.
 
     Frame n takes its random numbers from seed `settings.seed` + n, so that frames have independent
     noise. The mode upsample samples some pixels alone, where it can, and never begins a film.
     `more` receives the samples per pixel that each frame takes in addition to `samples`, below 0 if
-    it takes fewer. With a hysteresis, probes continue from frame to frame, and each frame restarts
-    the film, whether or not something moves.
+    it takes fewer. `seconds` receives the time from the edit of each frame until its picture is on
+    the driver; reading it, and enlarging it here, do not count. With a hysteresis, probes continue
+    from frame to frame, and each frame restarts the film, whether or not something moves.
     """
     settings, way, hysteresis, pipeline, size = played
     renderer = Renderer(sequence.scenes[0], settings, context, pipeline=pipeline)
@@ -49,6 +52,7 @@ def play(
     last: Scene | None = None
     try:
         for number, scene in enumerate(sequence.scenes):
+            start = time.perf_counter()
             if scene != renderer.scene or (number and hysteresis is not None):
                 temporal.leave(renderer)
                 renderer.update(scene, hysteresis=hysteresis, seed=settings.seed + number)
@@ -58,7 +62,7 @@ def play(
             else:
                 renderer.render(renderer.samples + samples)
             before = temporal.more_samples if scene == last else 0.0
-            picture, last = screen_of(renderer, temporal), scene
+            picture, last = screen_of(renderer, temporal, start, seconds), scene
             if more is not None:
                 own = _of_lattice(temporal) - samples if temporal.coarse(renderer) else 0.0
                 more.append(temporal.more_samples - before + own)
@@ -86,11 +90,19 @@ def enlarged(picture: Picture, size: tuple[int, int]) -> Picture:
     return picture
 
 
-def screen_of(renderer: Renderer, temporal: Temporal) -> Picture:
-    """The radiance that is shown now, (H, W, 3)."""
+def screen_of(
+    renderer: Renderer,
+    temporal: Temporal,
+    start: float = 0.0,
+    seconds: list[float] | None = None,
+) -> Picture:
+    """The radiance that is shown now, (H, W, 3); `seconds` receives the time since `start`."""
     shown = temporal.show(renderer)
     with renderer.context.gl:
         texture = shown or renderer.weighed(renderer.plan.weights)
+        if seconds is not None:
+            renderer.context.gl.finish()
+            seconds.append(time.perf_counter() - start)
         return read_texture(texture)[..., :3].copy()
 
 

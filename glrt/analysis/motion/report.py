@@ -12,6 +12,7 @@ from glrt.core import files
 
 PAGE = "temporal.md"
 HEADINGS = ("scene", "sequence", "mode", "frame", "rays", "error")
+CLOCK = "milliseconds"  # the heading of one more column: median of a frame
 _WORDS = {
     "orbit": f"orbit, {DEGREES:g} degree a frame",
     "light step": f"light dimmed to {FACTOR:.0%} after {BEFORE} frames",
@@ -20,22 +21,23 @@ _WORDS = {
 
 def save_tracks(name: str, title: str, tracks: Sequence[Track], folder: Path) -> None:
     """Write NAME.temporal.svg, .png and .csv."""
-    charts = [_chart(sequence, tracks) for sequence in _sequences(tracks)]
+    charts = _charts(tracks)
     for suffix in FORMATS:
         save_sheet(charts, folder / f"{name}.temporal{suffix}", title, columns=2)
     text = io.StringIO()
     table = csv.writer(text, lineterminator="\n")
-    table.writerow(HEADINGS)
+    table.writerow([*HEADINGS, *([CLOCK] if _is_timed(tracks) else [])])
     table.writerows(rows(tracks))
     files.write_text(folder / f"{name}.temporal.csv", text.getvalue())
 
 
 def rows(tracks: Sequence[Track]) -> Iterator[tuple[object, ...]]:
-    """A row for each look, under HEADINGS."""
+    """A row for each look, under HEADINGS; then the track's milliseconds, where it is timed."""
     for track in tracks:
+        time = [f"{track.milliseconds.value:.4g}"] if track.milliseconds else []
         for seen in track.seen:
             place = track.scene, track.sequence, track.mode, seen.frame
-            yield (*place, round(seen.rays, 3), f"{seen.error:.5g}")
+            yield (*place, round(seen.rays, 3), f"{seen.error:.5g}", *time)
 
 
 def save_page(tracks: Sequence[Track], size: str, folder: Path) -> Path:
@@ -47,13 +49,15 @@ def save_page(tracks: Sequence[Track], size: str, folder: Path) -> Path:
 
 def section_of(name: str, title: str, tracks: Sequence[Track]) -> Section:
     """The section of a scene on a page that needs no network; `tracks` are the scene's."""
-    charts = [_chart(sequence, tracks) for sequence in _sequences(tracks)]
-    rows = [["what moves, mode", "rays a pixel and frame", "mean error"]]
+    charts = _charts(tracks)
+    timed = ["milliseconds a frame"] if _is_timed(tracks) else []
+    rows = [["what moves, mode", "rays a pixel and frame", "mean error", *timed]]
     rows += [
         [
             f"{_WORDS[track.sequence]}, {track.mode}",
             f"{_rays(track):.1f}",
             f"{track.mean_error:.3f}",
+            *([_time(track)] if timed else []),
         ]
         for track in tracks
     ]
@@ -66,6 +70,18 @@ def _rays(track: Track) -> float:
     return sum(seen.rays for seen in track.seen) / len(track.seen)
 
 
+def _is_timed(tracks: Sequence[Track]) -> bool:
+    return any(track.milliseconds for track in tracks)
+
+
+def _time(track: Track) -> str:
+    """Median and quartiles of the milliseconds of a frame."""
+    if not track.milliseconds:
+        return "-"
+    median, low, high = (f"{value:.3g}" for value in track.milliseconds)
+    return f"{median} ({low}-{high})"
+
+
 def _lines(tracks: Sequence[Track], size: str) -> Iterator[str]:
     yield "# Error while something moves"
     yield ""
@@ -75,8 +91,11 @@ def _lines(tracks: Sequence[Track], size: str) -> Iterator[str]:
     )
     yield ""
     columns = ["scene", "what moves", "mode", "rays a pixel and frame", "mean error"]
-    yield f"| {' | '.join(columns)} | times lower than reset |"
-    yield "|---|---|---|---|---|---|"
+    columns.append("times lower than reset")
+    if is_timed := _is_timed(tracks):
+        columns.append("milliseconds a frame")
+    yield f"| {' | '.join(columns)} |"
+    yield "|---" * len(columns) + "|"
     for track in tracks:
         base = next(
             (
@@ -90,6 +109,13 @@ def _lines(tracks: Sequence[Track], size: str) -> Iterator[str]:
         yield (
             f"| {track.scene} | {_WORDS[track.sequence]} | {track.mode} | {_rays(track):.1f} "
             f"| {track.mean_error:.3f} | {gain if track.mode != 'reset' else '1'} |"
+            + (f" {_time(track)} |" if is_timed else "")
+        )
+    if is_timed:
+        yield ""
+        yield (
+            "Milliseconds are medians with quartiles. The modes take turns after each frame; times "
+            "end when the picture is on the driver."
         )
     for name in dict.fromkeys(track.scene for track in tracks):
         yield ""
@@ -98,6 +124,23 @@ def _lines(tracks: Sequence[Track], size: str) -> Iterator[str]:
 
 def _sequences(tracks: Sequence[Track]) -> list[str]:
     return [*dict.fromkeys(track.sequence for track in tracks)]
+
+
+def _charts(tracks: Sequence[Track]) -> list[Chart]:
+    """Error against frames for each sequence; then against milliseconds, where they are timed."""
+    names = _sequences(tracks)
+    timed = [_clock_chart(name, tracks) for name in names] if _is_timed(tracks) else []
+    return [*(_chart(name, tracks) for name in names), *timed]
+
+
+def _clock_chart(sequence: str, tracks: Sequence[Track]) -> Chart:
+    curves = [
+        Curve(track.mode, [track.milliseconds.value], [track.mean_error])
+        for track in tracks
+        if track.sequence == sequence and track.milliseconds
+    ]
+    x_label, y_label = "milliseconds a frame, median", "mean relative RMS error on the screen"
+    return Chart(f"{sequence}: error by time", x_label, y_label, curves)
 
 
 def _chart(sequence: str, tracks: Sequence[Track]) -> Chart:

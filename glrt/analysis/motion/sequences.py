@@ -14,6 +14,7 @@ class Sequence(NamedTuple):
 
     name: str
     scenes: tuple[Scene, ...]
+    first: int = 0  # frame to look at
 
 
 def orbit(scene: Scene, frames: int, degrees: float) -> Sequence:
@@ -31,7 +32,7 @@ def light_step(scene: Scene, frames: int, at: int, factor: float) -> Sequence:
     groups = {finish.group for finish in scene.finishes if finish.group}
     lights = {name: factor * scene.lights.get(name, 1.0) for name in sorted(groups)}
     after = scene.model_copy(update={"lights": {**scene.lights, **lights}})
-    return Sequence("light step", tuple(scene if n < at else after for n in range(frames)))
+    return Sequence("light step", tuple(scene if n < at else after for n in range(frames)), at)
 
 
 def with_camera(scene: Scene, camera: Camera) -> Scene:
