@@ -53,7 +53,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Write the file and return 0; UsageError for a file of another kind."""
     path = Path(arguments.output)
-    if (write := _FORMATS.get(path.suffix.lower())) is None:
+    if path.suffix.lower() not in _FORMATS:
         raise UsageError(
             f"{escaped(arguments.output)}: glrt exports .glb, .gltf, .xml (Mitsuba) and .pbrt "
             "files. Name one of them."
@@ -62,10 +62,8 @@ def run(arguments: argparse.Namespace) -> int:
     rules = {"allow_outside": arguments.allow_outside, "variant": arguments.variant}
     scene = load(find(arguments.scene), **rules)
     settings = settings_for(scene.render, **settings_given(arguments))
-    companions = Companions(path)
-    content, left_out = write(_with(scene, settings), settings, companions)
-    size = companions.save() + len(content)
-    write_whole(path, lambda file: _write(file, content))
+    content, left_out, companions = _exported(with_settings(scene, settings), settings, path)
+    size = _save(path, content, companions)
     if text := told(left_out):
         print(f"glrt: caution: {escaped(arguments.output)}: {text}.", file=sys.stderr)
     beside = f" and {escaped(companions.folder)}/" if companions.count else ""
@@ -73,8 +71,31 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _with(scene: Scene, settings: Settings) -> Scene:
-    """Return the scene with the size of another picture, which glTF holds as a ratio."""
+def save_whole(scene: Scene, settings: Settings, path: Path) -> bool:
+    """Write a scene in the format of a suffix if nothing is left out; return whether it is so.
+
+    Raises UsageError or RenderError if it cannot be written.
+    """
+    content, left_out, companions = _exported(scene, settings, path)
+    if not left_out:
+        _save(path, content, companions)
+    return not left_out
+
+
+def _exported(scene: Scene, settings: Settings, path: Path) -> tuple[bytes, list[str], Companions]:
+    companions = Companions(path)
+    return *_FORMATS[path.suffix.lower()](scene, settings, companions), companions
+
+
+def _save(path: Path, content: bytes, companions: Companions) -> int:
+    """Write the files; return their bytes. The scene file comes last."""
+    size = companions.save() + len(content)
+    write_whole(path, lambda file: _write(file, content))
+    return size
+
+
+def with_settings(scene: Scene, settings: Settings) -> Scene:
+    """Return the scene with other settings of its picture, which it then has in its file."""
     render = {name: getattr(settings, name) for name in RenderSettings.model_fields}
     return scene.model_copy(update={"render": scene.render.model_copy(update=render)})
 
