@@ -19,10 +19,10 @@ Modules, each importing only what stands above it:
 - paths: `glrt paths`
 - moving_options: options of `glrt chart` for what moves
 - chart: `glrt chart`
+- export: `glrt export`
 - stress: `glrt stress`
 - doctor: `glrt doctor`
 - importing: `glrt import`
-- export: `glrt export`
 - schema: `glrt schema`
 - commands: the table of commands
 - main: how the command starts and ends

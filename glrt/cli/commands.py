@@ -25,7 +25,7 @@ COMMANDS = {  # name, and its summary in `glrt --help`
     "stress": "test where methods fail",
     "doctor": "test which OpenGL routes work",
     "import": "write the scene of a model",
-    "export": "write a scene as glTF",
+    "export": "write a scene as glTF, or for Mitsuba or pbrt",
     "schema": "print the scene format as JSON Schema",
 }
 

@@ -143,19 +143,9 @@ def add_settings(parser: argparse.ArgumentParser, has_auto: bool = False) -> Non
     `has_auto`: `--method` and `--caustics` also accept `auto`, which chooses by a measurement.
     """
     group = parser.add_argument_group("settings")
-    for name, field in Settings.model_fields.items():
-        if name in _OF_FILES:
-            continue
-        unit = editable_of(field).unit
-        options = _options(name, field.annotation, unit)
-        wish = "the scene's" if name in RenderSettings.model_fields else _shown(field.default)
-        wish = AUTO if has_auto and name in _LEFT_OPEN else wish
-        notes = "; ".join(filter(None, [unit, f"default: {wish}"]))
-        text = f"{field.description} ({notes})".replace("%", "%%")
-        if has_auto and name in _AUTO:
-            options["choices"] = [*options["choices"], AUTO]
-            text += f"; {AUTO}: {_AUTO[name]}"
-        group.add_argument(f"--{name}", default=argparse.SUPPRESS, help=text, **options)
+    for name in Settings.model_fields:
+        if name not in _OF_FILES:
+            _add_setting(group, name, has_auto)
     group.add_argument(
         "--light",
         dest="lights",
@@ -165,6 +155,27 @@ def add_settings(parser: argparse.ArgumentParser, has_auto: bool = False) -> Non
         default=[],
         help="intensity of a light group, a factor from 0; may be repeated",
     )
+
+
+def add_frame(parser: argparse.ArgumentParser) -> None:
+    """Add options for the settings that files of other programs hold, too."""
+    group = parser.add_argument_group("settings")
+    for name in ("width", "height", "samples", "bounces", "crop"):
+        _add_setting(group, name)
+
+
+def _add_setting(group: argparse._ActionsContainer, name: str, has_auto: bool = False) -> None:
+    field = Settings.model_fields[name]
+    unit = editable_of(field).unit
+    options = _options(name, field.annotation, unit)
+    wish = "the scene's" if name in RenderSettings.model_fields else _shown(field.default)
+    wish = AUTO if has_auto and name in _LEFT_OPEN else wish
+    notes = "; ".join(filter(None, [unit, f"default: {wish}"]))
+    text = f"{field.description} ({notes})".replace("%", "%%")
+    if has_auto and name in _AUTO:
+        options["choices"] = [*options["choices"], AUTO]
+        text += f"; {AUTO}: {_AUTO[name]}"
+    group.add_argument(f"--{name}", default=argparse.SUPPRESS, help=text, **options)
 
 
 def _shown(default: Any) -> str:

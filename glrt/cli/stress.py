@@ -9,13 +9,17 @@ from dataclasses import replace
 from pathlib import Path
 
 from glrt.analysis.outputs import Outputs, prepare_outputs
+from glrt.cli.export import save_whole, with_settings
 from glrt.cli.options import add_context
 from glrt.core.errors import UsageError
-from glrt.core.text import nearest, quoted
+from glrt.core.files import make_folder, write_text
+from glrt.core.text import counted, nearest, quoted
 from glrt.gpu.context import open_context
 from glrt.lab import report
 from glrt.lab.cases import CASES
 from glrt.lab.sweep import Case, Finding, Lab
+from glrt.lab.truths import truths
+from glrt.settings import settings_for
 
 DESCRIPTION = (
     "Vary one parameter after the other to where path tracers fail, and compare glrt with a "
@@ -39,12 +43,20 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "this is written",
     )
     add("--quick", action="store_true", help="an eighth of the samples")
+    add(
+        "--scenes",
+        metavar="DIR",
+        type=Path,
+        help="write the scenes of cases whose mean radiance is known in closed form, and run "
+        "none: .toml; .xml and .pbrt where the format holds the scene wholly; truths.json",
+    )
     add("--list", action="store_true", help="list the cases and run none")
     add("--json", action="store_true", help="print figures as one line of JSON")
     add_context(parser)
 
 
 BROKEN = 1
+_TRUTHS = "truths.json"
 QUICK = 0.125  # share of the rows and samples of a full run
 
 
@@ -54,6 +66,8 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.list:
         print("\n".join(f"{case.name:<10} {case.title}" for case in cases))
         return 0
+    if arguments.scenes:
+        return _write_scenes(arguments.scenes, {case.name for case in cases})
     outputs = _prepared(arguments, cases)
     context = open_context(arguments.context, "compute")
     lab = Lab(context, QUICK if arguments.quick else 1.0, [] if outputs.page else None)
@@ -66,6 +80,31 @@ def run(arguments: argparse.Namespace) -> int:
     print(summary if arguments.json else report.table(findings, context.renderer), flush=True)
     context.gl.release()
     return 0 if all(finding.holds for finding in findings) else BROKEN
+
+
+def _write_scenes(folder: Path, names: set[str]) -> int:
+    """Write the scenes of cases with a closed form, and truths.json; return 0."""
+    known = [truth for truth in truths() if truth.name.partition("-")[0] in names]
+    if not known:
+        have = dict.fromkeys(truth.name.partition("-")[0] for truth in truths())
+        raise UsageError(f"no scene of these cases has a closed form; these do: {', '.join(have)}.")
+    make_folder(folder, _TRUTHS)
+    told = {}
+    for truth in known:
+        settings = settings_for(truth.scene.render, **truth.settings)
+        scene = with_settings(truth.scene, settings)
+        scene.save(folder / f"{truth.name}.toml")
+        wanted = [f"{truth.name}{suffix}" for suffix in (".xml", ".pbrt")]
+        files = [name for name in wanted if save_whole(scene, settings, folder / name)]
+        told[truth.name] = {
+            "files": [f"{truth.name}.toml", *files],
+            "radiance": truth.radiance,
+            "formula": truth.formula,
+            **truth.settings,
+        }
+    write_text(folder / _TRUTHS, json.dumps(told, indent=2) + "\n")
+    print(f"Wrote {counted(len(known), 'scene')} and {_TRUTHS} to {folder}.")
+    return 0
 
 
 def known_cases(names: Sequence[str]) -> list[Case]:

@@ -24,6 +24,7 @@ Modules, each importing only what stands above it:
 - points: points of a sampler in ever more dimensions
 - sums: accumulation, random numbers, long paths
 - views: positions and fields of view of the camera
+- truths: scenes of some cases whose radiance is known in closed form
 - cases: all cases by name
 - report: table, figures and charts
 """

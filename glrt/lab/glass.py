@@ -85,7 +85,7 @@ def bulb(lab: Lab) -> Sweep:
     wrong = []
     size: dict[str, Any] = {"width": SIDE, "height": SIDE, "bounces": 2}
     for (name, in_glass, way), radius in product(kinds, x):
-        mean, stderr = mean_of(lab.render(_bulb(radius, in_glass), samples, **size, **way))
+        mean, stderr = mean_of(lab.render(bulb_room(radius, in_glass), samples, **size, **way))
         truth, paths = bulb_light(radius, in_glass), samples * SIDE**2
         top = WALL / INDEX**2 if in_glass else WALL
         is_rare = in_glass and "caustics" not in way
@@ -108,8 +108,8 @@ def bulb(lab: Lab) -> Sweep:
     )
 
 
-def _bulb(radius: float, in_glass: bool) -> Scene:
-    """A spherical room with the lamp at its centre; the camera looks at the wall."""
+def bulb_room(radius: float, in_glass: bool) -> Scene:
+    """Return a spherical room with the lamp at its centre; the camera looks at the wall."""
     shapes = [sphere([0, 0, 0], 1, "wall"), sphere([0, 0, 0], radius, "lamp")]
     if in_glass:
         shapes.append(sphere([0, 0, 0], BALL, "glass"))

@@ -206,18 +206,26 @@ def skim(lab: Lab) -> Sweep:
     )
 
 
-def _error_at(lab: Lab, body: dict[str, Any], angle: float) -> float:
-    """Return the error for a camera that is 1 above the plane, along its line of sight."""
+def sight_into_fog(body: dict[str, Any], angle: float) -> Scene:
+    """Return a lamp in absorbing fog, seen from outside along a line at an angle to its surface.
+
+    The line of sight is 1 long in front of the fog, and 1.5 inside.
+    """
     away = np.array([np.cos(angle), -np.sin(angle), 0.0])
     eye = -away  # the line of sight meets the plane in the origin
     end, across = 1.5 * away, np.array([np.sin(angle), np.cos(angle), 0.0])
     corner = end - 9 * across - np.array([0, 0, 9.0])
     wall = quad(corner.tolist(), (18 * across).tolist(), [0, 0, 18.0], "lamp")
-    scene = scene_of(
+    return scene_of(
         [{**body, "medium": "fog"}, wall],
         {"lamp": lamp(1.0)},
         {"position": eye.tolist(), "look_at": [0, 0, 0], "fov": 1e-12},
         media={"fog": {"absorption": [1.0] * 3}},
     )
+
+
+def _error_at(lab: Lab, body: dict[str, Any], angle: float) -> float:
+    """Return the error for a camera that looks into the fog at an angle."""
+    scene = sight_into_fog(body, angle)
     mean, _ = mean_of(lab.render(scene, 16, width=1, height=1, bounces=0))
     return float(abs(mean / np.exp(-1.5) - 1))

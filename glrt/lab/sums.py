@@ -9,6 +9,7 @@ import numpy as np
 
 from glrt.lab.scenes import lamp, plane, scene_of
 from glrt.lab.sweep import SIGMAS, Array, Lab, Sweep
+from glrt.scene.scene import Scene
 
 PORTION = 1 << 15  # samples per dispatch, below the loop limit of software drivers
 DARK, BRIGHT, SHARE = 0.1, 0.9, 0.3  # samples of a pixel on an edge, and the share of bright ones
@@ -143,7 +144,7 @@ def albedo(lab: Lab) -> Sweep:
     limits = (1000, 10, 100)
     light = {limit: [_room_light(lab, 1 - x, limit) for x in absorbed] for limit in limits}
     whole = [1 / float(np.float32(x)) for x in absorbed]
-    sums = [_series(1 - x, 1000) for x in absorbed]
+    sums = [sum_of_bounces(1 - x, 1000) for x in absorbed]
     lost = {
         f"light lost with {limit} bounces": _relative(light[limit], whole)
         for limit in (10, 100, 1000)
@@ -159,12 +160,17 @@ def albedo(lab: Lab) -> Sweep:
     )
 
 
-def _room_light(lab: Lab, albedo: float, bounces: int) -> float:
-    """Radiance in a closed room of planes that emit 1; without roulette all paths agree."""
+def glowing_room(albedo: float) -> Scene:
+    """Return a closed room of planes that emit 1."""
     normals = [
         [side if k == axis else 0 for k in range(3)] for axis in range(3) for side in (1, -1)
     ]
     walls = [plane([-x for x in normal], normal, "wall") for normal in normals]
+    return scene_of(walls, {"wall": lamp(1, albedo)})
+
+
+def _room_light(lab: Lab, albedo: float, bounces: int) -> float:
+    """Radiance in a closed room of planes that emit 1; without roulette all paths agree."""
     size: dict[str, Any] = {
         "width": 8,
         "height": 8,
@@ -172,12 +178,12 @@ def _room_light(lab: Lab, albedo: float, bounces: int) -> float:
         "roulette": False,
         "method": "naive",
     }
-    image = lab.render(scene_of(walls, {"wall": lamp(1, albedo)}), 1, **size)
+    image = lab.render(glowing_room(albedo), 1, **size)
     return float(image.radiance.mean(dtype=np.float64))
 
 
-def _series(albedo: float, bounces: int) -> float:
-    """1 + a + ... + a^bounces, with the albedo a rounded to float32 as in the kernel."""
+def sum_of_bounces(albedo: float, bounces: int) -> float:
+    """Return 1 + a + ... + a^bounces, with the albedo a rounded to float32 as in the kernel."""
     a = float(np.float32(albedo))
     return (1 - a ** (bounces + 1)) / (1 - a)
 

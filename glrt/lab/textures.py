@@ -26,7 +26,7 @@ def layers(lab: Lab) -> Sweep:
     errors: dict[str, list[float]] = {name: [] for name in variants}
     bound = []
     for count in x:
-        scene = _layered(int(count))
+        scene = thin_layers(int(count))
         left = (1 - ALPHA) ** count
         for name, variant in variants.items():
             image = lab.render(scene, lab.count(512, 64), variant, width=8, height=8, bounces=0)
@@ -46,7 +46,8 @@ def layers(lab: Lab) -> Sweep:
     )
 
 
-def _layered(count: int) -> Scene:
+def thin_layers(count: int) -> Scene:
+    """Return layers of alpha ALPHA in front of a wall that emits 1."""
     black = {"type": "principled", "color": [0.0] * 3, "specular": 0.0, "alpha": ALPHA}
     heights = np.linspace(-1, -2, count).tolist()
     sheets = [quad([-50, -50, z], [100, 0, 0], [0, 100, 0], "p") for z in heights]

@@ -52,6 +52,14 @@ def bounds_of(scene: SceneFields) -> tuple[Bounds, ...]:
     )
 
 
+def holders_of(scene: SceneFields) -> dict[int, list[int]]:
+    """Return the volumes that hold each of the first MOST_VOLUMES volumes, the innermost last.
+
+    Volumes are given by the numbers of their objects.
+    """
+    return _around(scene)
+
+
 def medium_around(scene: SceneFields, point: Floats) -> str | None:
     """Return the name of the medium at a point, (3,); None for vacuum."""
     around = _around(scene) if scene.media else {}

@@ -6,8 +6,9 @@ from typing import Any
 import pytest
 
 from glrt.core.errors import SceneError
+from glrt.scene.export.faces import is_seen_from_inside
 from glrt.scene.shapes.sphere import Sphere
-from tests.mitsuba.faces import is_seen_from_inside, refuse_coincident
+from tests.mitsuba.coincident import refuse_coincident
 from tests.support.builders import MATTE, box, cylinder, disk, plane, quad, scene_of, sphere
 
 SHEET = quad([0, 0, 0], [1, 0, 0], [0, 0, 1], "white")

@@ -1,16 +1,22 @@
 """Checks of every scene file, however wrong: it is read whole, or refused with one paragraph."""
 
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 
 from glrt.core.errors import SceneError
 from glrt.gpu.context import Context
 from glrt.rendering.renderer import Renderer
+from glrt.scene.export.companions import Companions
+from glrt.scene.export.mitsuba.file import to_mitsuba
+from glrt.scene.export.pbrt.file import to_pbrt
 from glrt.scene.scene import Scene
 from glrt.scene.scenefile.toml import parse_scene, read_scene, scene_to_dict
+from glrt.settings import settings_for
 from tests.fuzz.foreign import is_foreign
 from tests.fuzz.grammar import Table
+from tests.support.pbrt_text import read_pbrt
 
 SOURCE = "chance.toml"
 
@@ -55,3 +61,14 @@ def check_render(scene: Scene, context: Context) -> None:
         assert renderer.nonfinite() == 0
     finally:
         renderer.release()
+
+
+def check_exports(scene: Scene, folder: Path) -> None:
+    """The files of Mitsuba and pbrt are well-formed, and each number in them is finite."""
+    settings, beside = settings_for(scene.render), Companions(folder / "scene.xml")
+    text, _ = to_mitsuba(scene, settings, beside)
+    for element in ElementTree.fromstring(text).iter():
+        numbers = element.tag in ("float", "rgb", "point", "matrix")
+        words = str(element.get("value")).replace(",", " ").split() if numbers else []
+        assert np.isfinite([float(it) for it in words]).all()
+    read_pbrt(to_pbrt(scene, settings, beside)[0])

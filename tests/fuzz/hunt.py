@@ -28,11 +28,19 @@ def kinds(folder: Path, context: Context) -> dict[str, tuple[st.SearchStrategy[A
         checks.check_render(scene, context)
         return "rendered"
 
+    def exported(table: Any) -> str:
+        scene = checks.parsed(table)
+        if not scene:
+            return "refused"
+        checks.check_exports(scene, folder)
+        return "exported"
+
     def told(is_read: object) -> str:
         return "read" if is_read else "refused"
 
     return {
         "scenes by the grammar": (scenes(), rendered),
+        "exported scenes": (scenes(), exported),
         "scenes with wrong values": (broken_scenes(), lambda t: told(checks.parsed(t))),
         "files with wrong bytes": (broken_files(), lambda b: told(checks.read(b, folder))),
         "broken EXR": (

@@ -31,7 +31,7 @@ def render(arguments: argparse.Namespace) -> int:
     settings = settings_for(scene.render, **given)
     mi = load_mitsuba(arguments.variant)
     liberties = Liberties(arguments.one_sided, arguments.finite)
-    engine = Engine(mi, scene, settings, liberties)
+    engine = Engine(mi, scene, settings, liberties, arguments.file)
     start = time.perf_counter()
     image = engine.image(settings.samples, settings.seed)
     seconds = time.perf_counter() - start
@@ -64,6 +64,7 @@ def _parser() -> argparse.ArgumentParser:
             add("--roulette", action=argparse.BooleanOptionalAction, help=text)
         else:
             add(f"--{name}", type=int, metavar="N", help=text)
+    add("--file", metavar="FILE.xml", help="to which `glrt export` wrote the scene")
     add("--one-sided", action="store_true", help="quads light their front alone")
     add("--finite", action="store_true", help="planes end far away, before the horizon")
     add("--variant", choices=["auto", "llvm", "scalar"], default="auto", help="how Mitsuba runs")

@@ -61,15 +61,26 @@ class Engine:
     """A scene ready to be rendered many times; settings are those of glrt."""
 
     def __init__(
-        self, mi: Any, scene: Scene, settings: Settings, liberties: Liberties = EXACT
+        self,
+        mi: Any,
+        scene: Scene,
+        settings: Settings,
+        liberties: Liberties = EXACT,
+        file: str | None = None,
     ) -> None:
-        """Convert the scene and load it; SceneError if Mitsuba cannot show it."""
+        """Convert the scene and load it, or load the file to which `glrt export` wrote it.
+
+        Raises SceneError if Mitsuba cannot show it.
+        """
         self._block = 1 if liberties.sampler == "independent" else BLOCK
         self._mi = mi
         self.name = name_of(mi)
         self.scene = scene
         self.settings = settings_for(settings, method="mis", sampler="independent")
-        self._loaded = mi.load_dict(convert(mi, scene, settings, liberties))
+        if file:
+            self._loaded = mi.load_file(file)
+        else:
+            self._loaded = mi.load_dict(convert(mi, scene, settings, liberties))
 
     def pixels(self, samples: int, seed: int) -> Pixels:
         """The mean of `samples` samples, (H, W, 3), row 0 on top. Equal seeds, equal samples."""

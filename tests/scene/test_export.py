@@ -224,7 +224,7 @@ def test_the_command_writes_a_file_and_names_what_it_lacks(
     assert "Wrote" in told.out
     assert load(target).meshes
     assert main(["export", "cornell", "-o", str(tmp_path / "room.abc")]) == 2
-    assert "exports .glb and .gltf files" in capsys.readouterr().err
+    assert "exports .glb, .gltf, .xml (Mitsuba) and .pbrt files" in capsys.readouterr().err
 
 
 @pytest.mark.slow

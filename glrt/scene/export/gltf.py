@@ -1,16 +1,16 @@
 """A scene as a glTF file, of what that format holds."""
 
 import math
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from glrt.core.text import counted, quoted
+from glrt.core.text import quoted
 from glrt.core.version import VERSION
 from glrt.scene.export.gltf_file import GltfFile, Table
 from glrt.scene.export.gltf_materials import MaterialWriter
+from glrt.scene.export.left_out import LeftOut, Report
 from glrt.scene.export.triangles import corners_around, triangles_of
 from glrt.scene.lit_scene import SUN_GROUP
 from glrt.scene.materials.nothing import Nothing
@@ -33,15 +33,15 @@ def to_gltf(scene: Scene, is_binary: bool) -> tuple[bytes, list[str]]:
 
     Each object is a node. Analytic shapes become triangles. The file holds its buffer and images.
     """
-    left_out = dict[str, None]()
-    writer = _Writer(scene, lambda text: left_out.setdefault(text))
+    left_out = LeftOut()
+    writer = _Writer(scene, left_out)
     writer.write()
     file = writer.file
-    return (file.binary() if is_binary else file.text()), list(left_out)
+    return (file.binary() if is_binary else file.text()), left_out.things
 
 
 class _Writer:
-    def __init__(self, scene: Scene, report: Callable[[str], None]) -> None:
+    def __init__(self, scene: Scene, report: Report) -> None:
         self.file = GltfFile(f"glrt {VERSION}")
         self._scene, self._report = scene, report
         self._materials = MaterialWriter(self.file, scene, report)
@@ -159,14 +159,6 @@ class _Writer:
         light = {"extensions": {_LIGHTS: {"light": 0}}, "matrix": _columns(matrix)}
         self._node({"name": "sun", **light})
         self._report(f"the width of the sun, {scene.sun.angle:g} degrees")
-
-
-def told(left_out: list[str]) -> str:
-    """Return what a file lacks in one sentence; empty if it lacks nothing."""
-    most = 8
-    more = len(left_out) - most
-    rest = f" and {counted(more, 'other part')}" if more > 0 else ""
-    return f"left out: {', '.join(left_out[:most])}{rest}" if left_out else ""
 
 
 def _facing(back: Floats, up: Floats, place: Floats) -> Floats:

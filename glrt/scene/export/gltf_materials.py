@@ -1,6 +1,5 @@
 """Materials of a glTF file that is written."""
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -8,6 +7,7 @@ import numpy as np
 from glrt.core.text import quoted
 from glrt.scene.export.gltf_file import GltfFile, Table
 from glrt.scene.export.gltf_textures import TextureWriter, channel_of, placing
+from glrt.scene.export.left_out import Report
 from glrt.scene.lit_scene import Finish
 from glrt.scene.materials.base import Opaque
 from glrt.scene.materials.dielectric import Dielectric
@@ -17,7 +17,6 @@ from glrt.scene.materials.metal import Metal
 from glrt.scene.materials.principled import Principled
 from glrt.scene.scene import Scene
 
-Report = Callable[[str], None]
 _LEAST_IOR = 1.0
 
 

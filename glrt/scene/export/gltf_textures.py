@@ -1,6 +1,5 @@
 """Textures of a glTF file that is written: images in PNG of 8 bits, and how they lie."""
 
-import io
 import math
 from typing import Any
 
@@ -8,17 +7,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glrt.scene.export.gltf_file import GltfFile, Table
-from glrt.scene.images.codes import decode_srgb
+from glrt.scene.export.image_codes import MOST, codes_of, png_of
 from glrt.scene.materials.textures import Texture
 
 Texels = NDArray[np.float16]  # (H, W, 4), linear
-Codes = NDArray[np.uint8]
 
 _WRAPS = {"clamp": 33071, "mirror": 33648, "repeat": 10497}
 _FILTERS = {"nearest": 9728, "linear": 9729}
 _CHANNELS = {None: 0, "r": 0, "g": 1, "b": 2, "a": 3}
 _TRANSFORM = "KHR_texture_transform"
-_MOST = 255  # the largest code
 
 
 class TextureWriter:
@@ -50,7 +47,7 @@ class TextureWriter:
     def _image(self, texels: Texels, is_color: bool) -> int:
         key = is_color, texels.shape, texels.tobytes()
         if key not in self._images:
-            view = self._file.view(_png(_codes(texels, is_color)))
+            view = self._file.view(_file_of(texels, is_color))
             table = {"bufferView": view, "mimeType": "image/png"}
             self._images[key] = self._file.add("images", table)
         return self._images[key]
@@ -67,21 +64,7 @@ def channel_of(texture: Texture) -> NDArray[np.float16]:
     return texture.texels[..., _CHANNELS[texture.channel]]
 
 
-def _codes(texels: Texels, is_color: bool) -> Codes:
-    """Return codes in sRGB, or of data; alpha is always linear. Values beyond 0..1 are cut."""
-    values = texels.astype(np.float32).clip(0, 1)
-    codes: Codes = np.rint(values * _MOST).astype(np.uint8)
-    if is_color:
-        known = decode_srgb(np.arange(_MOST + 1) / _MOST).astype(np.float32)
-        between = (known[1:] + known[:-1]) / 2
-        codes[..., :3] = np.searchsorted(between, values[..., :3])
-    return codes
-
-
-def _png(codes: Codes) -> bytes:
-    from PIL.Image import fromarray
-
-    file = io.BytesIO()
-    is_whole = (codes[..., 3] == _MOST).all()
-    fromarray(np.ascontiguousarray(codes[..., :3]) if is_whole else codes).save(file, "PNG")
-    return file.getvalue()
+def _file_of(texels: Texels, is_color: bool) -> bytes:
+    codes = codes_of(texels, is_color)
+    is_whole = (codes[..., 3] == MOST).all()
+    return png_of(codes[..., :3] if is_whole else codes)

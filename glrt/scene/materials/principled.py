@@ -141,6 +141,11 @@ class Principled(Opaque):
         return self.emits and not (any(self.color) or self.specular)
 
     @property
+    def is_matte(self) -> bool:
+        """Whether it scatters as a Lambertian surface does: no metal, facets, glass or coat."""
+        return not (self.metallic or self.specular or self.transmission or self.clearcoat)
+
+    @property
     def has_holes(self) -> bool:
         """Whether light passes the surface partly, or in places."""
         return self.alpha_map is not None or self.coverage < 1

@@ -1,11 +1,12 @@
-"""Facts about a scene's surfaces that Mitsuba needs as input: the surfaces seen from inside, and
-the surfaces that coincide, so that it would show one or the other at random."""
+"""Flat faces of shapes that coincide: Mitsuba would show one or the other at random."""
 
 from typing import NamedTuple
 
 import numpy as np
 
 from glrt.core.errors import SceneError
+from glrt.scene.export.faces import TOUCH
+from glrt.scene.export.placing import Vector, around, corners, length, normal_of
 from glrt.scene.scene import Scene
 from glrt.scene.shapes.box import Box
 from glrt.scene.shapes.cylinder import Cylinder
@@ -13,28 +14,6 @@ from glrt.scene.shapes.disk import Disk
 from glrt.scene.shapes.kinds import Shape
 from glrt.scene.shapes.plane import Plane
 from glrt.scene.shapes.quad import Quad
-from glrt.scene.shapes.sphere import Sphere
-from tests.mitsuba.near import Vector, around, corners, length, normal_of
-
-TOUCH = 1e-6  # of a radius or an edge: surfaces that come as near only touch
-
-
-def is_seen_from_inside(ball: Sphere, scene: Scene) -> bool:
-    """Whether the camera or a part of another shape is inside of the ball."""
-    center = np.array(ball.center)
-    room = ball.radius * (1 - TOUCH)
-    if length(center - scene.camera.position) < room:
-        return True
-    return any(item is not ball and _reach(item, center) < room for item in scene.visible)
-
-
-def _reach(item: Shape, point: Vector) -> float:
-    """The distance of a point to a shape's surface; of what is bounded, at most."""
-    if isinstance(item, Sphere):
-        return abs(length(point - item.center) - item.radius)
-    if isinstance(item, Plane):
-        return abs(float(np.dot(normal_of(item), point - item.point)))
-    return length(point - item.middle) - item.reach
 
 
 class Face(NamedTuple):

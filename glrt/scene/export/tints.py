@@ -1,0 +1,77 @@
+"""Media of a scene for programs that know tinted glass as a medium that absorbs."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from glrt.core.text import quoted
+from glrt.scene.export.left_out import Report
+from glrt.scene.materials.dielectric import Dielectric
+from glrt.scene.materials.kinds import glass_of
+from glrt.scene.scene import Scene
+from glrt.scene.volumes import MOST_VOLUMES, bounds_a_volume, holders_of, medium_around
+
+
+class Inside(NamedTuple):
+    """The filling of a volume: a medium, or the tint of a glass; both None for vacuum."""
+
+    medium: str | None = None
+    glass: str | None = None  # name of its material
+
+
+VACUUM = Inside()
+
+
+class Sides(NamedTuple):
+    """The fillings inside and outside of an object."""
+
+    inside: Inside
+    outside: Inside
+
+
+def tinted(scene: Scene, name: str) -> Dielectric | None:
+    """Return the glass that a material is, if it absorbs light."""
+    glass = glass_of(scene.materials[name])
+    return glass if glass and not glass.thin and any(glass.absorption) else None
+
+
+def sides_of(scene: Scene, report: Report) -> dict[int, Sides]:
+    """Return what lies on both sides of each object that bounds a volume, by number.
+
+    Without media and tinted glass there are none. `report` takes what cannot be known: which of
+    more than MOST_VOLUMES volumes lies in which.
+    """
+    solids = [n for n in scene.shown if bounds_a_volume(scene.materials[scene.objects[n].material])]
+    if not scene.media_in_use and not any(tinted(scene, scene.objects[n].material) for n in solids):
+        return {}
+    around: dict[int, list[int]] = {n: [] for n in solids}
+    if len(solids) <= MOST_VOLUMES:
+        around |= {n: held for n, held in holders_of(scene).items() if n in around}
+    else:
+        report("which volume lies in which other one")
+    return {
+        n: Sides(_filling(scene, n, report), _filling(scene, held[-1], report))
+        if held
+        else Sides(_filling(scene, n, report), Inside(scene.medium))
+        for n, held in around.items()
+    }
+
+
+def around_camera(scene: Scene) -> Inside:
+    """Return what the camera stands in."""
+    eye = np.array(scene.camera.position, np.float64)
+    if scene.media_in_use and (name := medium_around(scene, eye)):
+        return Inside(name)
+    holding = [it for it in scene.visible if tinted(scene, it.material) and it.holds(eye)]
+    inner = min(holding, key=lambda it: it.reach, default=None)
+    return Inside(None, inner.material) if inner else VACUUM
+
+
+def _filling(scene: Scene, number: int, report: Report) -> Inside:
+    thing = scene.objects[number]
+    if not tinted(scene, thing.material):
+        return Inside(thing.medium)
+    if thing.medium:
+        report(f"the tint of {quoted(thing.material)} around {quoted(thing.medium)}")
+        return Inside(thing.medium)
+    return Inside(None, thing.material)
