@@ -155,7 +155,9 @@ def add_settings(parser: argparse.ArgumentParser, has_auto: bool = False) -> Non
         if has_auto and name in _AUTO:
             options["choices"] = [*options["choices"], AUTO]
             text += f"; {AUTO}: {_AUTO[name]}"
-        group.add_argument(f"--{name}", default=argparse.SUPPRESS, help=text, **options)
+        group.add_argument(
+            f"--{name.replace('_', '-')}", default=argparse.SUPPRESS, help=text, **options
+        )
     group.add_argument(
         "--light",
         dest="lights",
@@ -185,7 +187,8 @@ def _options(name: str, annotation: Any, unit: str) -> dict[str, Any]:
         return {"action": argparse.BooleanOptionalAction}
     if choices := get_args(annotation):
         return {"choices": choices}
-    return {"type": annotation, "metavar": "N" if annotation is int else unit.upper() or "X"}
+    word = "X" if not unit or " " in unit else unit.upper()
+    return {"type": annotation, "metavar": "N" if annotation is int else word}
 
 
 def _names(text: str) -> tuple[str, ...]:

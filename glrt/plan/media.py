@@ -5,8 +5,12 @@ from functools import cached_property
 
 import numpy as np
 
+from glrt.scene.grids import edge_of_voxel, steps_across
+from glrt.scene.loading.scene_files import check_loaded
 from glrt.scene.scene import Scene
 from glrt.scene.volumes import Bounds, bounds_of, medium_around
+
+MOST_STEPS = 10_000  # of a ray through a grid: llvmpipe ends loops after 65,535 rounds
 
 
 @dataclass(frozen=True)
@@ -29,6 +33,27 @@ class MediaFacts:
     def transfers(self) -> list[str]:
         """Names of the media with a transfer function."""
         return [name for name in self.names if self.scene.media[name].transfer is not None]
+
+    def steps(self, length: float | None) -> int:
+        """Return about how many steps a ray takes through all grids: see `steps_across`."""
+        return sum(steps_across(self.scene, name, length) for name in self.grids)
+
+    def beyond_steps(self, length: float) -> str | None:
+        """Return why rays cannot march through the grids in steps of a length; None if they can.
+
+        A length of 0 is that of a voxel. Raises SceneError for a scene whose files were not read.
+        """
+        check_loaded(self.scene)
+        for name in self.grids:
+            steps = steps_across(self.scene, name, length)
+            if steps > MOST_STEPS:
+                least = (length or edge_of_voxel(self.scene, name)) * steps / MOST_STEPS
+                return (
+                    f"--march-step {length:g} is too short for the grid of media.{name}: a ray "
+                    f"through it takes {steps:,} steps, and {MOST_STEPS:,} are the most. Give at "
+                    f"least {1.01 * least:.2g}."
+                )
+        return None
 
     @cached_property
     def bounds(self) -> tuple[Bounds, ...]:

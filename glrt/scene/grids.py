@@ -57,10 +57,20 @@ def grid_of(scene: SceneFields, name: str) -> Grid:
     return Grid(file.voxels, file.tops, file.bottoms, density.scale * file.most)
 
 
-def steps_across(scene: SceneFields, name: str) -> int:
-    """Return about how many steps a ray takes along the diagonal of a grid: bricks, collisions."""
+def edge_of_voxel(scene: SceneFields, name: str) -> float:
+    """Return the shortest edge of the voxels of a grid, in units of the world."""
+    return float(1 / np.linalg.norm(placement_of(scene, name).linear, axis=1).max())
+
+
+def steps_across(scene: SceneFields, name: str, length: float | None = None) -> int:
+    """Return about how many steps a ray takes along the diagonal of a grid: bricks, collisions.
+
+    `length`: of its steps, if it marches; 0 for the edge of a voxel.
+    """
     grid, place = grid_of(scene, name), placement_of(scene, name)
     diagonal = float(np.linalg.norm(np.linalg.inv(place.linear) @ grid.voxels.shape[::-1]))
+    if length is not None:
+        return math.ceil(diagonal / (length or edge_of_voxel(scene, name)))
     tops = grid.top * grid.tops.astype(np.float64)
     if transfer := scene.media[name].transfer:
         bottoms = grid.top * grid.bottoms.astype(np.float64)

@@ -51,6 +51,14 @@ Approach approach_lamps(inout Path path, Medium medium, float distance) {
     return found;
 }
 
+// Scatters the path where it collides, so far on its segment: its ray starts there.
+void collide(inout Path path, Medium medium, float way) {
+    path.throughput *= weight_of_collision(path.flight, medium);
+    path.flight.left = vec3(1.0);
+    path.ray.origin += way * path.ray.direction;
+    path.ray.origin_shape = NO_SHAPE;
+}
+
 // Flies over a segment of this length through a grid, like `collides`.
 bool collides_in_grid(inout Path path, Medium medium, float distance) {
     if (medium.scattering == vec3(0.0)) {
@@ -83,10 +91,7 @@ bool collides_in_grid(inout Path path, Medium medium, float distance) {
         }
         if (next_of_collision() * rate < real[path.flight.channel]) {
             if (HAS_EQUIANGULAR) path.approach = no_approach();
-            path.throughput *= weight_of_collision(path.flight, medium);
-            path.flight.left = vec3(1.0);
-            path.ray.origin += march.way * path.ray.direction;
-            path.ray.origin_shape = NO_SHAPE;
+            collide(path, medium, march.way);
             return true;
         }
         path.flight.left *= max(top * rates - real, vec3(0.0));
@@ -105,10 +110,34 @@ void cross_volume(inout Path path, float distance) {
     path.throughput *= found.share;
 }
 
+// Flies over a segment of this length in steps, through a grid or a scientific volume, like `collides`.
+bool collides_in_steps(inout Path path, float distance) {
+    int row = path.flight.medium;
+    Medium medium = medium_at(row);
+    Steps steps = first_step(medium, path.ray, distance);
+    while (is_in_grid(steps)) {
+        Medium even = medium_of_step(row, medium, steps);
+        float length = steps.end - steps.begin;
+        gather_glow(path, even, length);
+        float way;
+        if (medium.scattering == vec3(0.0)) {
+            path.throughput *= share_left(even.extinction, length);
+        } else if (flies_into(path.flight, even, length, way)) {
+            if (HAS_EQUIANGULAR) path.approach = no_approach();
+            collide(path, even, steps.begin + way);
+            return true;
+        }
+        next_step(steps);
+    }
+    note_end(is_in_grid(steps) ? 0 : 1, 1);
+    return false;
+}
+
 // Flies over a segment of this length. True if the path collides there: then its ray starts at the collision. A
 // medium that only absorbs takes its share without chance.
 bool collides(inout Path path, float distance) {
     if (path.flight.medium == NO_MEDIUM) return false;
+    if (MARCHES && has_grid(medium_at(path.flight.medium))) return collides_in_steps(path, distance);
     if (HAS_TRANSFER && is_classified(path.flight.medium)) {
         cross_volume(path, distance);
         return false;
@@ -123,22 +152,15 @@ bool collides(inout Path path, float distance) {
     Approach approach = no_approach();
     if (HAS_EQUIANGULAR && path.flight.dice.x >= 0.0) approach = approach_lamps(path, medium, distance);
     float chance = dot(path.flight.chances, path.flight.left);
-    float extinction = medium.extinction[path.flight.channel];
-    float depth = extinction * distance;
-    bool is_met = path.flight.depth < depth;
-    float way = is_met ? path.flight.depth / extinction : distance;
-    path.flight.left *= share_left(medium.extinction, way);
-    path.flight.depth -= depth;
+    float way;
+    bool is_met = flies_into(path.flight, medium, distance, way);
     if (is_met) {
         if (HAS_EQUIANGULAR) {
             path.approach = approach;
             path.approach.way = way;
             if (approach.density > 0.0) path.approach.density = density_of_collision(path.flight, medium) / chance;
         }
-        path.throughput *= weight_of_collision(path.flight, medium);
-        path.flight.left = vec3(1.0);
-        path.ray.origin += way * path.ray.direction;
-        path.ray.origin_shape = NO_SHAPE;
+        collide(path, medium, way);
     }
     return is_met;
 }
