@@ -23,7 +23,7 @@ from glrt.image.image import Image
 from glrt.image.sources import load
 from glrt.plan.facts import SceneFacts
 from glrt.rendering.renderer import Renderer
-from glrt.scene.grids import edge_of_voxel
+from glrt.scene.grids import edges_of_voxels
 from glrt.scene.scene import Scene
 
 VOXELS = (1, 2, 4, 8, 16, 32)  # lengths of steps
@@ -47,7 +47,7 @@ def _run(parsed: argparse.Namespace) -> None:
     grids = SceneFacts(scene).media.grids
     if not grids:
         raise UsageError(f"{parsed.scene} has no medium with a grid, so no steps. Name another.")
-    edge = max(edge_of_voxel(scene, name) for name in grids)
+    edge = max(max(edges_of_voxels(scene, name)) for name in grids)
     render = scene.render
     width = max(1, round(parsed.size * render.width / render.height))
     size: dict[str, Any] = {"width": width, "height": parsed.size, "samples": parsed.samples}

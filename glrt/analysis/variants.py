@@ -10,7 +10,7 @@ from glrt.plan.facts import SceneFacts
 from glrt.plan.features import needs_of
 from glrt.plan.methods import METHODS as TRAITS
 from glrt.plan.methods import traits_of
-from glrt.scene.grids import edge_of_voxel
+from glrt.scene.grids import edges_of_voxels
 from glrt.scene.scene import Scene
 from glrt.settings import Method, Settings, settings_for
 
@@ -72,7 +72,7 @@ def _marched(
     for method in methods:
         if TRAITS[method].marches and facts.media.grids:
             yield method, {"method": method}
-            edge = max(edge_of_voxel(facts.scene, name) for name in facts.media.grids)
+            edge = max(max(edges_of_voxels(facts.scene, name)) for name in facts.media.grids)
             step = settings.march_step or edge
             longer = {"method": method, "march_step": LONGER * step}
             yield f"{method}, {LONGER} times the step", longer

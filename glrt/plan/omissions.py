@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from glrt.plan.facts import SceneFacts
 from glrt.plan.methods import CLASSIC, METHODS, has_ambient, reuses_points, traits_of
 from glrt.plan.probe_grid import grid_of
-from glrt.scene.grids import edge_of_voxel
+from glrt.scene.grids import edges_of_voxels
 from glrt.scene.materials.kinds import glass_of
 from glrt.scene.shapes.kinds import KINDS
 from glrt.settings import EFFECTS, Settings
@@ -70,7 +70,7 @@ def _without_effects(facts: SceneFacts, settings: Settings) -> Iterator[str]:
 def _between_steps(facts: SceneFacts, settings: Settings) -> Iterator[str]:
     """Yield what method march does not see of media with a grid."""
     for name in facts.media.grids:
-        step = settings.march_step or edge_of_voxel(facts.scene, name)
+        step = settings.march_step or max(edges_of_voxels(facts.scene, name))
         yield f"of the medium {name} what is finer than its steps, {step:.2g} long"
 
 

@@ -7,7 +7,7 @@ import pytest
 from glrt.analysis.variants import variants_of
 from glrt.denoise import oidn
 from glrt.image.sources import load
-from glrt.scene.grids import edge_of_voxel
+from glrt.scene.grids import edges_of_voxels
 from glrt.settings import settings_for
 from tests.support.builders import MATTE, glass, lamp, quad, scene_of, sphere
 
@@ -73,7 +73,7 @@ def test_steps_are_charted_in_two_lengths_where_there_is_a_grid() -> None:
     found = {it.name: it.settings for it in variants_of(scene, settings_for(scene.render))}
     marched = {name: it.march_step for name, it in found.items() if it.method == "march"}
     assert list(marched) == ["march", "march, 8 times the step"]
-    edge = edge_of_voxel(scene, "smoke")
+    (edge,) = edges_of_voxels(scene, "smoke")
     assert [*marched.values()] == [0.0, pytest.approx(8 * edge)]
     plain = load("fog")
     names = [it.name for it in variants_of(plain, settings_for(plain.render))]

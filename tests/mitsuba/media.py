@@ -6,9 +6,10 @@ from typing import Any
 import numpy as np
 
 from glrt.core.errors import SceneError
+from glrt.plan.media import Filling
 from glrt.scene.grids import grid_of, placement_of
 from glrt.scene.scene import Scene
-from glrt.scene.volumes import bounds_of, medium_around
+from glrt.scene.volumes import bounds_of, medium_in, volume_around
 from tests.mitsuba.near import Near
 from tests.support.numerics import Array
 
@@ -23,22 +24,27 @@ def integrator(scene: Scene) -> str:
 def around_camera(scene: Scene, at: Near) -> Words:
     """The medium around the camera."""
     eye = np.array(scene.camera.position, np.float64)
-    name = medium_around(scene, eye) if scene.media_in_use else None
-    return {} if name is None else {"medium": _medium(scene, name, at)}
+    if not scene.media_in_use:
+        return {}
+    number = volume_around(scene, eye)
+    name = medium_in(scene, number)
+    return {} if name is None else {"medium": _medium(scene, name, number, at)}
 
 
 def bounds(scene: Scene, at: Near) -> dict[int, Words]:
     """The media inside and outside of the surfaces of objects, by their numbers in the scene."""
     found: dict[int, Words] = {}
-    for number, inside, outside in bounds_of(scene):
-        sides = {"interior": inside, "exterior": outside}
-        found[number] = {
-            side: _medium(scene, name, at) for side, name in sides.items() if name is not None
+    for it in bounds_of(scene):
+        sides = {"interior": (it.inside, it.number), "exterior": (it.outside, it.around)}
+        found[it.number] = {
+            side: _medium(scene, name, holder, at)
+            for side, (name, holder) in sides.items()
+            if name is not None
         }
     return found
 
 
-def _medium(scene: Scene, name: str, at: Near) -> Words:
+def _medium(scene: Scene, name: str, holder: int | None, at: Near) -> Words:
     medium = scene.media[name]
     if medium.emits:
         raise SceneError(f"medium '{name}': the converter knows media that do not shine.")
@@ -46,19 +52,20 @@ def _medium(scene: Scene, name: str, at: Near) -> Words:
     albedo = {"type": "rgb", "value": (np.array(medium.scattering) / total).tolist()}
     phase = {"type": "hg", "g": medium.anisotropy}
     if medium.density is not None:
-        grid = _grid(scene, name, total / at.factor, at)
+        grid = _grid(scene, Filling(name, holder), total / at.factor, at)
         return {"type": "heterogeneous", "sigma_t": grid, "albedo": albedo, "phase": phase}
     even = {"type": "rgb", "value": (total / at.factor).tolist()}
     return {"type": "homogeneous", "sigma_t": even, "albedo": albedo, "phase": phase}
 
 
-def _grid(scene: Scene, name: str, extinction: Array, at: Near) -> Words:
+def _grid(scene: Scene, filling: Filling, extinction: Array, at: Near) -> Words:
     """The extinction of a medium as voxels of three channels, in a box that fills its object."""
     mi = importlib.import_module("mitsuba")
+    name = filling.medium
     density = scene.media[name].density
     if density is None or density.min is not None:
         raise SceneError(f"medium '{name}': the converter knows grids that fill their object.")
-    grid, place = grid_of(scene, name), placement_of(scene, name)
+    grid, place = grid_of(scene, name), placement_of(scene, *filling)
     inverse = np.linalg.inv(place.linear)
     matrix = np.eye(4)  # from the unit cube
     matrix[:3, :3] = at.along(inverse * grid.voxels.shape[::-1])

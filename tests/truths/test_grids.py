@@ -261,6 +261,18 @@ def test_lengths_that_are_twice_as_large_keep_the_bits(context: Context) -> None
     assert same(first, second)
 
 
+def test_a_grid_lies_in_two_objects(context: Context) -> None:
+    """A box twice as deep has twice the depth, and one that is turned has it from the other end."""
+    steep = np.zeros((32, 3, 2), np.float32)
+    steep[16:] = 1.0  # above the middle
+    high = {**filled(box([3, -1, -2], [5, 1, 2], "")), "rotate": [0, 180, 0]}
+    for x, top, truth in ((0.0, -0.1, 1.0), (4.0, -0.5, np.exp(-1.5 * MU))):
+        camera = {"position": [x, 0, top], "look_at": [x, 0, top - 1], "fov": 0.01}
+        fog = smoke(steep, absorption=MU)
+        image = rendered(with_smoke(fog, [CUBE, high], camera, background=EVEN), context, 1024)
+        assert_mean(whole(image), np.broadcast_to(truth, 3), 0.2)
+
+
 # --- limits ----------------------------------------------------------------------------------
 
 
