@@ -39,6 +39,7 @@ def variants_of(
     are merged into one, "a = b = c".
     """
     facts = SceneFacts(scene)
+    methods = [it for it in methods if not _refuses_media(facts, settings, it)]
     named = [_of_method(it, settings) for it in methods if not TRAITS[it].marches]
     named += _marched(facts, settings, methods)
     if leads:
@@ -55,6 +56,12 @@ def variants_of(
             Variant(f"{known.name} = {name}", known.settings) if known else Variant(name, wanted)
         )
     return list(found.values())
+
+
+def _refuses_media(facts: SceneFacts, settings: Settings, method: str) -> bool:
+    """Whether the scene has media, and the method finds light of surfaces alone."""
+    traits = traits_of(settings_for(settings, method=method))
+    return bool(facts.media.names) and (traits.has_probes or traits.rasters)
 
 
 def _of_method(method: str, settings: Settings) -> tuple[str, dict[str, Any]]:

@@ -78,3 +78,10 @@ def test_steps_are_charted_in_two_lengths_where_there_is_a_grid() -> None:
     plain = load("fog")
     names = [it.name for it in variants_of(plain, settings_for(plain.render))]
     assert not any("march" in name for name in names)
+
+
+def test_methods_that_refuse_media_are_not_charted_with_them() -> None:
+    scene = load("fog")
+    methods = {it.settings.method for it in variants_of(scene, settings_for(scene.render))}
+    assert not methods & {"ddgi", "gather", "resampled", "hybrid"}
+    assert methods >= {"naive", "nee", "mis"}
