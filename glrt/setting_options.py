@@ -34,6 +34,7 @@ class FrameOptions(TypedDict, total=False):
     probes: int
     reuse: Reuse
     unbiased: bool
+    march_step: float
     seed: int
     exposure: float
     tonemap: ToneMap

@@ -27,6 +27,7 @@ Method = Literal[
     "gather",
     "resampled",
     "hybrid",
+    "march",
 ]
 Effect = Literal["shadows", "reflections", "refractions", "ambient_occlusion", "gi"]
 Sampler = Literal["sobol", "sobol64", "independent"]
@@ -70,7 +71,8 @@ class RenderSettings(Frozen):
         "direct light as in mis, indirect light from a grid of probes; gather: as ddgi, but paths "
         "are traced to one more matte surface (final gathering); resampled: as gather, but the "
         "first matte surface is lit by one resampled point; hybrid: the first surface by "
-        "rasterisation, direct light, and the effects of rays that `effects` lists",
+        "rasterisation, direct light, and the effects of rays that `effects` lists; march: as mis, "
+        "but media with a grid are crossed in steps of a fixed length (ray marching)",
     )
     effects: Annotated[tuple[Effect, ...], Editable(Cost.RECOMPILE)] = Field(
         EFFECTS,
@@ -155,6 +157,13 @@ class Settings(RenderSettings):
         True,
         description="trace a visibility ray for each reused sample of method resampled; off is "
         "faster, but darkens contacts and edges",
+    )
+    march_step: Annotated[float, Editable(Cost.RESTART, "scene units", (0, 1))] = Field(
+        0.0,
+        description="length of a step of method march, in media with a grid; 0: the edge of a "
+        "voxel",
+        ge=0,
+        le=1e15,
     )
     seed: Annotated[int, Editable(Cost.RESTART)] = Field(
         0, description="seed of the random numbers", ge=0, le=0xFFFFFFFF

@@ -52,6 +52,7 @@
 #include "media/phase.glsl"
 #include "media/grid.glsl"
 #include "media/transfer.glsl"
+#include "media/steps.glsl"
 #include "media/flight.glsl"
 #include "media/equiangular.glsl"
 #include "integrators/aov_numbers.glsl"

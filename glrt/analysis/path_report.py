@@ -157,6 +157,8 @@ def _way(path: Path, light: Contribution) -> str:
 
 
 def _name(light: Contribution) -> str:
+    if light.source == "medium":
+        return f"the medium {escaped(light.name)}"
     return escaped(light.name) if light.source == "object" else f"the {light.source}"
 
 

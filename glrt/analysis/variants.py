@@ -8,13 +8,16 @@ from glrt.denoise import oidn
 from glrt.plan.combinations import refusal
 from glrt.plan.facts import SceneFacts
 from glrt.plan.features import needs_of
+from glrt.plan.methods import METHODS as TRAITS
 from glrt.plan.methods import traits_of
+from glrt.scene.grids import edges_of_voxels
 from glrt.scene.scene import Scene
 from glrt.settings import Method, Settings, settings_for
 
 METHODS: tuple[str, ...] = get_args(Method)
 LEAD = "mis"  # the method whose variants are charted
 LINKED = {"particles": 0.35, "aimed": 0.2, "linked": 1.0}  # particles that are linked, too
+LONGER = 8  # times the step of a method that marches
 FEW_BOUNCES, MANY_TIMES, MOST_BOUNCES = (1, 2, 5), 8, 256
 
 
@@ -36,7 +39,9 @@ def variants_of(
     are merged into one, "a = b = c".
     """
     facts = SceneFacts(scene)
-    named = [_of_method(method, settings) for method in methods]
+    methods = [it for it in methods if not _refuses_media(facts, settings, it)]
+    named = [_of_method(it, settings) for it in methods if not TRAITS[it].marches]
+    named += _marched(facts, settings, methods)
     if leads:
         named += _variants_of_lead(settings)
         named += _with_particles(facts, settings)
@@ -44,12 +49,19 @@ def variants_of(
     found: dict[Any, Variant] = {}
     for name, changes in named:
         wanted = settings_for(settings, **changes)
-        key = (needs_of(facts, wanted), wanted.bounces, wanted.sampler, wanted.denoise)
+        step = wanted.march_step if TRAITS[wanted.method].marches else None
+        key = (needs_of(facts, wanted), wanted.bounces, wanted.sampler, wanted.denoise, step)
         known = found.get(key)
         found[key] = (
             Variant(f"{known.name} = {name}", known.settings) if known else Variant(name, wanted)
         )
     return list(found.values())
+
+
+def _refuses_media(facts: SceneFacts, settings: Settings, method: str) -> bool:
+    """Whether the scene has media, and the method finds light of surfaces alone."""
+    traits = traits_of(settings_for(settings, method=method))
+    return bool(facts.media.names) and (traits.has_probes or traits.rasters)
 
 
 def _of_method(method: str, settings: Settings) -> tuple[str, dict[str, Any]]:
@@ -58,6 +70,19 @@ def _of_method(method: str, settings: Settings) -> tuple[str, dict[str, Any]]:
     if not has_probes or settings.block > 1:
         return method, {"method": method}
     return f"{method}, sobol", {"method": method, "sampler": "sobol"}
+
+
+def _marched(
+    facts: SceneFacts, settings: Settings, methods: Sequence[str]
+) -> Iterator[tuple[str, dict[str, Any]]]:
+    """Variants of the methods that march, where there is a grid: short steps and long ones."""
+    for method in methods:
+        if TRAITS[method].marches and facts.media.grids:
+            yield method, {"method": method}
+            edge = max(max(edges_of_voxels(facts.scene, name)) for name in facts.media.grids)
+            step = settings.march_step or edge
+            longer = {"method": method, "march_step": LONGER * step}
+            yield f"{method}, {LONGER} times the step", longer
 
 
 def _with_particles(facts: SceneFacts, settings: Settings) -> Iterator[tuple[str, dict[str, Any]]]:

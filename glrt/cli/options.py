@@ -175,7 +175,8 @@ def _add_setting(group: argparse._ActionsContainer, name: str, has_auto: bool = 
     if has_auto and name in _AUTO:
         options["choices"] = [*options["choices"], AUTO]
         text += f"; {AUTO}: {_AUTO[name]}"
-    group.add_argument(f"--{name}", default=argparse.SUPPRESS, help=text, **options)
+    flag = f"--{name.replace('_', '-')}"
+    group.add_argument(flag, default=argparse.SUPPRESS, help=text, **options)
 
 
 def _shown(default: Any) -> str:
@@ -196,7 +197,8 @@ def _options(name: str, annotation: Any, unit: str) -> dict[str, Any]:
         return {"action": argparse.BooleanOptionalAction}
     if choices := get_args(annotation):
         return {"choices": choices}
-    return {"type": annotation, "metavar": "N" if annotation is int else unit.upper() or "X"}
+    word = "X" if not unit or " " in unit else unit.upper()
+    return {"type": annotation, "metavar": "N" if annotation is int else word}
 
 
 def _names(text: str) -> tuple[str, ...]:

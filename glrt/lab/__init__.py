@@ -16,6 +16,7 @@ Modules, each importing only what stands above it:
 - reuse: points of other pixels, where slats stand between
 - denoising: the bias of a filter, what is thin, and fireflies
 - media: depth, turns, colours and bounds of media
+- marching: grids that are crossed in steps
 - moving: history while the camera moves
 - history: what temporal modes make of a still pixel
 - sky: a sun of one pixel in an image of the sky

@@ -20,6 +20,7 @@ EVEN = {"bottom": [1.0] * 3, "top": [1.0] * 3}
 EDGE = 16  # voxels of a grid along an edge
 _GRID, _TRANSFER = "media/grid.glsl", "media/transfer.glsl"
 _FLIGHT, _PATH = "media/flight.glsl", "integrators/path_in_media.glsl"
+_START, _AROUND = "integrators/path_state.glsl", "HAS_MEDIA ? frame.camera_medium : NO_MEDIUM"
 
 
 def equilibrium(depth: float, g: float = 0.0, density: Density | None = None) -> Scene:
@@ -229,3 +230,35 @@ def _error_at(lab: Lab, body: dict[str, Any], angle: float) -> float:
     scene = sight_into_fog(body, angle)
     mean, _ = mean_of(lab.render(scene, 16, width=1, height=1, bounces=0))
     return float(abs(mean / np.exp(-1.5) - 1))
+
+
+def inside(lab: Lab) -> Sweep:
+    """Error of the light that a camera sees across a ball of fog, by its place in the ball."""
+    x = np.logspace(-6, 0, 7)
+    text = {_START: read(_START).replace(_AROUND, "NO_MEDIUM")}
+    ways = {"glrt": (1, PLAIN), "a path begins in vacuum": (1, Variant(texts=text))}
+    ways |= {"glrt, as far outside": (-1, PLAIN)}
+    found = {
+        name: [_error_across(lab, side * float(it), variant) for it in x]
+        for name, (side, variant) in ways.items()
+    }
+    chosen, *others = found.items()
+    return Sweep(
+        parameter="depth of the camera in a ball of radius 1",
+        measure="relative error of the light that is left",
+        x=x.tolist(),
+        chosen=chosen,
+        others=dict(others),
+        promise="at most 1e-5",
+        bound=[1e-5] * len(x),
+    )
+
+
+def _error_across(lab: Lab, depth: float, variant: Variant) -> float:
+    """Return the error for a camera so deep in the ball that it looks through; above 0: inside."""
+    eye = {"position": [0, 0, 1 - depth], "look_at": [0, 0, -9], "fov": 1e-12}
+    body = {**sphere([0, 0, 0], 1, "none"), "medium": "fog"}
+    media = {"fog": {"absorption": [1.0] * 3}}
+    scene = scene_of([body], {}, eye, media=media, background=EVEN)
+    mean, _ = mean_of(lab.render(scene, 16, variant, width=1, height=1, bounces=0))
+    return float(abs(mean / np.exp(max(depth, 0) - 2) - 1))

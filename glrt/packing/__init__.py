@@ -15,13 +15,13 @@ Modules, each importing only what stands above it:
 - drawn_triangles: the order in which triangles are drawn
 - lights: lamps as rows
 - texture_maps: textures of materials, and texture axes of shapes
+- texel_texture: texels of all textures
+- voxel_texture: voxels of all grids, and the largest density in each brick
 - media: media and the bounds of volumes
 - particles: data for particles from lamps
 - probes: data for probes
 - phong: constants of Phong's model
 - scene_arrays: all arrays of a scene, and the frame block
-- texel_texture: texels of all textures
-- voxel_texture: voxels of all grids, and the largest density in each brick
 - image_texture: an image as a texture
 - sky_table: importance table of the sky image
 """

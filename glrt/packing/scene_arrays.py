@@ -130,6 +130,7 @@ def pack_frame(
         **particle_fields(plan),
         **probe_fields(plan.grid, scene.camera),
         **phong_fields(settings.phong),
+        "march_step": settings.march_step,
         "camera_absorption": glass.absorption,
         "camera_counts": glass.counts,
         "sky_density": sky_density,

@@ -31,9 +31,20 @@ class VoxelTexture(Shared):
 
 
 def grids_of(facts: SceneFacts) -> list[GridFile]:
-    """Return the grids of the media in use, in the order of their rows."""
+    """Return the grids of the media in use, each once."""
     found = [facts.scene.media[name].density for name in facts.media.grids]
-    return [density.file for density in found if density is not None]
+    files = {it.file.sha256: it.file for it in found if it is not None}
+    return list(files.values())
+
+
+def first_texels(facts: SceneFacts) -> dict[str | None, int]:
+    """Return the number of the first texel of each grid of `grids_of`, by the grid's SHA-256."""
+    firsts: dict[str | None, int] = {}
+    first = 0
+    for grid in grids_of(facts):
+        firsts[grid.sha256] = first
+        first += 0 if grid.voxels is None else grid.voxels.size + grid.tops.size
+    return firsts
 
 
 def texture_of(gl: moderngl.Context, grids: Sequence[GridFile]) -> moderngl.Texture:

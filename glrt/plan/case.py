@@ -85,6 +85,11 @@ class Case:
         return self.has_media and bool(self.facts.media.transfers)
 
     @property
+    def marches(self) -> bool:
+        """Whether such a medium is crossed in steps of a fixed length."""
+        return self.traits.marches and self.has_grids
+
+    @property
     def samples_along_segments(self) -> bool:
         """Whether light of few lamps is sampled along segments through media of even density."""
         media = self.facts.media

@@ -37,6 +37,7 @@ class Way(StrEnum):
     PROBES = "a method with probes"
     REUSE = "reuse of points"
     HYBRID = "the method hybrid"
+    MARCH = "the method march"
     PARTICLES = "--caustics on"
     PILOT = "--caustics auto"
     DENOISE = "--denoise"
@@ -60,6 +61,7 @@ MEANINGS: dict[Way, str] = {
     Way.REUSE: "`--method resampled`, unless `--reuse none`: points that other samples have kept",
     Way.HYBRID: "`--method hybrid`: first surfaces by rasterisation, and chosen effects of rays; "
     "with the effect gi it has probes, too",
+    Way.MARCH: "`--method march`: media with a grid in steps of a fixed length",
     Way.PARTICLES: "`--caustics on`: particles from lamps",
     Way.PILOT: "`--caustics auto`, the default: particles where a pilot finds that they pay",
     Way.DENOISE: "`--denoise`: a picture without its noise, with the error that is left",
@@ -92,28 +94,33 @@ _WORKS: dict[Way, tuple[Way, ...]] = {
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.FRAGMENT),
         *(Way.TERMS, Way.INDEPENDENT, Way.PROBES),
     ),
+    Way.MARCH: (
+        *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.FRAGMENT),
+        *(Way.TERMS, Way.INDEPENDENT),
+    ),
     Way.PARTICLES: (
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.INDEPENDENT),
     ),
     Way.PILOT: (
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.FRAGMENT),
         *(Way.TERMS, Way.INDEPENDENT, Way.CLASSIC, Way.PROBES, Way.REUSE, Way.HYBRID),
+        Way.MARCH,
     ),
     Way.DENOISE: (
         *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
         *(Way.CLASSIC, Way.PROBES, Way.REUSE, Way.PARTICLES, Way.PILOT, Way.TERMS),
-        Way.HYBRID,
+        *(Way.HYBRID, Way.MARCH),
     ),
     Way.AUTO: (Way.CROP, Way.AOV, Way.TERMS, Way.FRAGMENT, Way.INDEPENDENT, Way.PILOT),
     Way.TIME: (
         *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
         *(Way.CLASSIC, Way.PROBES, Way.REUSE, Way.PARTICLES, Way.PILOT, Way.DENOISE, Way.AUTO),
-        *(Way.TERMS, Way.HYBRID),
+        *(Way.TERMS, Way.HYBRID, Way.MARCH),
     ),
     Way.ERROR: (
         *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
         *(Way.CLASSIC, Way.PROBES, Way.REUSE, Way.PARTICLES, Way.PILOT, Way.DENOISE, Way.AUTO),
-        *(Way.TERMS, Way.TIME, Way.HYBRID),
+        *(Way.TERMS, Way.TIME, Way.HYBRID, Way.MARCH),
     ),
 }
 
@@ -148,6 +155,12 @@ _REFUSED: dict[frozenset[Way], str] = {
     frozenset({Way.HYBRID, Way.REUSE}): "each is a method",
     frozenset({Way.HYBRID, Way.PARTICLES}): "particles are weighed by the method mis alone",
     frozenset({Way.HYBRID, Way.AUTO}): "it chooses among methods that leave no light out",
+    **{
+        frozenset({Way.MARCH, other}): "each is a method"
+        for other in (Way.CLASSIC, Way.PROBES, Way.REUSE, Way.HYBRID)
+    },
+    frozenset({Way.MARCH, Way.PARTICLES}): "particles are weighed by the method mis alone",
+    frozenset({Way.MARCH, Way.AUTO}): "it has a method of its own: leave out --method auto",
     frozenset({Way.PARTICLES, Way.CLASSIC}): "particles are weighed by the method mis alone",
     frozenset({Way.PARTICLES, Way.AUTO}): "particles are weighed by the method mis alone: name it",
     frozenset({Way.PARTICLES, Way.PILOT}): "the one leaves open what the other says",
@@ -207,6 +220,8 @@ def check_render(
             f"Method {settings.method} does not go with media ({few(facts.media.names)}): {why} "
             "surfaces alone. Use the method mis, nee or naive."
         )
+    if traits.marches and (problem := facts.media.beyond_steps(settings.march_step)):
+        raise UsageError(problem)
     if settings.method == "resampled" and settings.terms:
         raise UsageError(
             "Method resampled does not sort its light into terms: one point stands for direct and "
@@ -228,6 +243,7 @@ def ways_of(settings: Settings, layering: Layering = "none") -> set[Way]:
         Way.PROBES: traits_of(settings).has_probes,
         Way.REUSE: reuses_points(settings),
         Way.HYBRID: METHODS[settings.method].rasters,
+        Way.MARCH: METHODS[settings.method].marches,
         Way.PARTICLES: settings.caustics == "on",
         Way.DENOISE: settings.denoise != "none",
     }

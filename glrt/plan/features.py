@@ -105,6 +105,7 @@ class Needs:
     has_media: bool = _row(lambda it: it.has_media, "media", reasons.media)
     has_grid: bool = _row(lambda it: it.has_grids, "grids", reasons.grids)
     has_transfer: bool = _row(lambda it: it.has_transfers, "transfer", reasons.transfers)
+    marches: bool = _row(lambda it: it.marches, "ray marching", reasons.steps, most=False)
     has_equiangular: bool = _row(  # samples the light of few lamps along segments through media
         lambda it: it.samples_along_segments,
         "along segments",

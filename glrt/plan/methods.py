@@ -31,6 +31,7 @@ class Traits:
     gathers: bool = False  # traces paths to one more matte surface before it reads probes
     resamples: bool = False  # resamples the light of the first matte surface
     rasters: bool = False  # finds first surfaces by rasterisation, and adds chosen effects of rays
+    marches: bool = False  # crosses media with a grid in steps of a fixed length
 
     @property
     def uses_lamps(self) -> bool:
@@ -40,7 +41,7 @@ class Traits:
     @property
     def weighs_particles(self) -> bool:
         """Whether the method can weigh paths from lamps together with its own."""
-        return self.weights_both and not self.has_probes and not self.rasters
+        return self.weights_both and not (self.has_probes or self.rasters or self.marches)
 
 
 METHODS: dict[str, Traits] = {
@@ -65,11 +66,14 @@ METHODS: dict[str, Traits] = {
         resamples=True,
     ),
     "hybrid": Traits(samples_lights=True, weights_both=True, chooses_lights=True, rasters=True),
+    "march": Traits(samples_lights=True, weights_both=True, chooses_lights=True, marches=True),
 }
 CLASSIC = [name for name, traits in METHODS.items() if traits.model]  # older than path tracing
 # Methods whose picture does not converge to the light of the scene.
 BIASED = [
-    name for name, traits in METHODS.items() if traits.model or traits.has_probes or traits.rasters
+    name
+    for name, traits in METHODS.items()
+    if traits.model or traits.has_probes or traits.rasters or traits.marches
 ]
 
 if list(METHODS) != list(get_args(Method)):

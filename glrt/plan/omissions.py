@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from glrt.plan.facts import SceneFacts
 from glrt.plan.methods import CLASSIC, METHODS, has_ambient, reuses_points, traits_of
 from glrt.plan.probe_grid import grid_of
+from glrt.scene.grids import edges_of_voxels
 from glrt.scene.materials.kinds import glass_of
 from glrt.scene.shapes.kinds import KINDS
 from glrt.settings import EFFECTS, Settings
@@ -19,6 +20,8 @@ def omissions(facts: SceneFacts, settings: Settings) -> list[str]:
         return list(_without_effects(facts, settings))
     if traits_of(settings).has_probes:
         return list(_blurred(facts, settings))
+    if METHODS[settings.method].marches:
+        return list(_between_steps(facts, settings))
     if settings.method not in CLASSIC:
         return []
     own = _phong(facts, settings)
@@ -62,6 +65,13 @@ def _without_effects(facts: SceneFacts, settings: Settings) -> Iterator[str]:
     is_open = "ambient_occlusion" not in effects and not is_alone
     if is_open and any(map(any, scene.background_colors)):
         yield "nothing hides the sky"
+
+
+def _between_steps(facts: SceneFacts, settings: Settings) -> Iterator[str]:
+    """Yield what method march does not see of media with a grid."""
+    for name in facts.media.grids:
+        step = settings.march_step or max(edges_of_voxels(facts.scene, name))
+        yield f"of the medium {name} what is finer than its steps, {step:.2g} long"
 
 
 def _blurred(facts: SceneFacts, settings: Settings) -> Iterator[str]:
@@ -132,8 +142,10 @@ def _omissions(facts: SceneFacts, method: str, is_ambient: bool) -> Iterator[str
 
 def left_out(settings: Settings, missing: list[str]) -> str:
     """Return a sentence that names what `omissions` found."""
-    is_whole = not METHODS[settings.method].rasters or settings.effects == EFFECTS
-    what = "blurs light" if traits_of(settings).has_probes and is_whole else "leaves light out"
+    traits = traits_of(settings)
+    is_whole = not traits.rasters or settings.effects == EFFECTS
+    blurs = traits.marches or (traits.has_probes and is_whole)
+    what = "blurs light" if blurs else "leaves light out"
     return (
         f"Method {settings.method} {what}, which no estimated error contains: {'; '.join(missing)}."
     )

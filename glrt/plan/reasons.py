@@ -73,6 +73,13 @@ def transfers(case: Case) -> str:
     return f"colour by density in {few(names)}" if names else "no medium has a transfer function"
 
 
+def steps(case: Case) -> str:
+    """Return the method, and the media that it crosses in steps."""
+    if not case.traits.marches:
+        return by_method(case)
+    return f"{by_method(case)}, {grids(case)}"
+
+
 def equiangular(case: Case) -> str:
     """Return the media and the lamps."""
     return f"{media(case)}, {lamps(case)}"

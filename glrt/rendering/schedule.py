@@ -22,7 +22,6 @@ from glrt.plan.facts import MESH, SceneFacts
 from glrt.plan.features import NEAR
 from glrt.plan.methods import METHODS, SPATIAL, TEMPORAL, depth_of, reuses_points
 from glrt.plan.plan import Plan
-from glrt.scene.grids import steps_across
 from glrt.scene.loading.scene_files import check_loaded
 from glrt.scene.scene import Scene
 from glrt.settings import RenderSettings
@@ -76,7 +75,7 @@ def iterations_per_sample(plan: Plan, tree_rounds: float = TREE_ROUNDS) -> int:
     segments = (settings.bounces + 1) * (1 + _passed(facts))
     bounds = 2 + len(facts.media.bounds) if plan.needs.has_media else 0  # to look one up
     if plan.needs.has_grid and tree_rounds:
-        bounds += sum(steps_across(plan.scene, name) for name in facts.media.grids)
+        bounds += facts.media.steps(settings.march_step if plan.needs.marches else None)
     if plan.needs.has_equiangular:  # a ray more, and its lamp chosen
         rays, choice = rays + 1, 2 * choice + 2 * facts.clusters
     return 1 + segments * (1 + rays * (search + bounds) + choice)

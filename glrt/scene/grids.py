@@ -7,11 +7,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from glrt.core.text import quoted
 from glrt.scene.files.named_grids import MOST_VOXELS, Voxels
 from glrt.scene.schema.fields import SceneFields
 from glrt.scene.shapes.base import Frame
-from glrt.scene.shapes.kinds import Shape
 
 Floats = NDArray[np.float64]
 
@@ -27,11 +25,22 @@ class Placement(NamedTuple):
     origin: Floats  # (3,)
 
 
-def placement_of(scene: SceneFields, name: str) -> Placement:
-    """Return the place of the grid of a medium whose file was read."""
+def holders_of(scene: SceneFields, name: str) -> tuple[int | None, ...]:
+    """Return the numbers of the visible objects that a medium fills, and None for all of space."""
+    held = [n for n, it in enumerate(scene.objects) if it.medium == name and not it.hidden]
+    return (*held, None) if scene.medium == name else tuple(held)
+
+
+def placement_of(scene: SceneFields, name: str, holder: int | None) -> Placement:
+    """Return the place of the grid of a medium in an object, by its number, or in all of space.
+
+    The file of the grid was read.
+    """
     density, grid = scene.media[name].density, grid_of(scene, name)
-    holder = next(_holders(scene, name), None)
-    frame = holder.frame if holder else Frame(np.eye(3), np.zeros(3), np.zeros(3), np.zeros(3))
+    if holder is None:
+        frame = Frame(np.eye(3), np.zeros(3), np.zeros(3), np.zeros(3))
+    else:
+        frame = scene.objects[holder].frame
     if density and density.min and density.max:
         frame = frame._replace(low=np.array(density.min), high=np.array(density.max))
     size = np.array(grid.voxels.shape[::-1]) / (frame.high - frame.low)
@@ -57,10 +66,27 @@ def grid_of(scene: SceneFields, name: str) -> Grid:
     return Grid(file.voxels, file.tops, file.bottoms, density.scale * file.most)
 
 
-def steps_across(scene: SceneFields, name: str) -> int:
-    """Return about how many steps a ray takes along the diagonal of a grid: bricks, collisions."""
-    grid, place = grid_of(scene, name), placement_of(scene, name)
+def edges_of_voxels(scene: SceneFields, name: str) -> tuple[float, ...]:
+    """Return the shortest edge of voxels in units of the world, for each of `holders_of`."""
+    places = (placement_of(scene, name, holder) for holder in holders_of(scene, name))
+    return tuple(float(1 / np.linalg.norm(it.linear, axis=1).max()) for it in places)
+
+
+def steps_across(scene: SceneFields, name: str, length: float | None = None) -> int:
+    """Return about how many steps a ray takes through the grids of a medium, in all its objects.
+
+    They are bricks and collisions on the diagonals. `length`: of steps, if it marches; 0 for the
+    edge of a voxel.
+    """
+    return sum(_steps_in(scene, name, holder, length) for holder in holders_of(scene, name))
+
+
+def _steps_in(scene: SceneFields, name: str, holder: int | None, length: float | None) -> int:
+    grid, place = grid_of(scene, name), placement_of(scene, name, holder)
     diagonal = float(np.linalg.norm(np.linalg.inv(place.linear) @ grid.voxels.shape[::-1]))
+    if length is not None:
+        edge = float(1 / np.linalg.norm(place.linear, axis=1).max())
+        return math.ceil(diagonal / (length or edge))
     tops = grid.top * grid.tops.astype(np.float64)
     if transfer := scene.media[name].transfer:
         bottoms = grid.top * grid.bottoms.astype(np.float64)
@@ -72,27 +98,16 @@ def steps_across(scene: SceneFields, name: str) -> int:
 
 def grid_problems(scene: SceneFields) -> Iterator[str]:
     """Yield what does not fit between media with grids and what holds them, as `key: ...`."""
-    count = 0
+    voxels: dict[str | None, int] = {}
     for name, medium in scene.media.items():
         density = medium.density
         if density is None:
             continue
-        key, holders = f"media.{name}.density", list(_holders(scene, name))
-        count += density.file.voxels.size if density.file.voxels is not None else 0
-        if len(holders) + (scene.medium == name) > 1:
-            yield (
-                f"{key}: {len(holders)} objects{' and all of space' * (scene.medium == name)} hold "
-                f"the medium {quoted(name)}, and a grid lies in one place. Give each a medium of "
-                "its own."
-            )
-        is_endless = scene.medium == name or any(not it.is_bounded for it in holders)
-        if is_endless and density.min is None:
-            yield f"{key}.min: is missing: what holds the medium has no end. Give min and max."
-        if density.min is not None or len(holders) != 1 or is_endless:
-            continue
-        frame = holders[0].frame
-        if (frame.low >= frame.high).any():
-            yield f"{key}.min: is missing: the object that holds the medium is flat. Give a box."
+        if density.file.voxels is not None:
+            voxels[density.file.sha256] = density.file.voxels.size
+        if density.min is None:
+            yield from _boxless(scene, name)
+    count = sum(voxels.values())
     if count > MOST_VOXELS:
         yield (
             f"media: their grids have {count:,} voxels together, and {MOST_VOXELS:,} are the most. "
@@ -100,5 +115,12 @@ def grid_problems(scene: SceneFields) -> Iterator[str]:
         )
 
 
-def _holders(scene: SceneFields, name: str) -> Iterator[Shape]:
-    return (it for it in scene.objects if it.medium == name and not it.hidden)
+def _boxless(scene: SceneFields, name: str) -> Iterator[str]:
+    """Yield why a grid without `min` and `max` has no box in some object that it fills."""
+    key = f"media.{name}.density.min: is missing:"
+    numbers = holders_of(scene, name)
+    holders = [scene.objects[number] for number in numbers if number is not None]
+    if None in numbers or not all(it.is_bounded for it in holders):
+        yield f"{key} what holds the medium has no end. Give min and max."
+    elif any((it.frame.low >= it.frame.high).any() for it in holders):
+        yield f"{key} an object that holds the medium is flat. Give a box."

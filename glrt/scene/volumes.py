@@ -34,6 +34,7 @@ class Bounds(NamedTuple):
     number: int  # of the object in the scene
     inside: str | None  # None: vacuum
     outside: str | None
+    around: int | None = None  # number of the volume that it lies in
 
 
 def bounds_a_volume(material: Material | None) -> bool:
@@ -46,13 +47,14 @@ def bounds_of(scene: SceneFields) -> tuple[Bounds, ...]:
     """Return the bounds of all volumes, in the order of objects; none in a scene without media."""
     around = _around(scene) if scene.media else {}
     things = scene.objects
+    holders = {n: outer[-1] if outer else None for n, outer in around.items()}
     return tuple(
-        Bounds(n, things[n].medium, things[outer[-1]].medium if outer else scene.medium)
-        for n, outer in around.items()
+        Bounds(n, things[n].medium, medium_in(scene, holder), holder)
+        for n, holder in holders.items()
     )
 
 
-def holders_of(scene: SceneFields) -> dict[int, list[int]]:
+def outer_volumes(scene: SceneFields) -> dict[int, list[int]]:
     """Return the volumes that hold each of the first MOST_VOLUMES volumes, the innermost last.
 
     Volumes are given by the numbers of their objects.
@@ -60,12 +62,21 @@ def holders_of(scene: SceneFields) -> dict[int, list[int]]:
     return _around(scene)
 
 
-def medium_around(scene: SceneFields, point: Floats) -> str | None:
-    """Return the name of the medium at a point, (3,); None for vacuum."""
+def medium_in(scene: SceneFields, number: int | None) -> str | None:
+    """Return the name of the medium in an object, or with None outside of all; None for vacuum."""
+    return scene.medium if number is None else scene.objects[number].medium
+
+
+def volume_around(scene: SceneFields, point: Floats) -> int | None:
+    """Return the number of the innermost volume at a point, (3,); None outside of all."""
     around = _around(scene) if scene.media else {}
     holding = [n for n in around if scene.objects[n].holds(point)]
-    inner = max(holding, key=lambda n: len(around[n]), default=None)
-    return scene.medium if inner is None else scene.objects[inner].medium
+    return max(holding, key=lambda n: len(around[n]), default=None)
+
+
+def medium_around(scene: SceneFields, point: Floats) -> str | None:
+    """Return the name of the medium at a point, (3,); None for vacuum."""
+    return medium_in(scene, volume_around(scene, point))
 
 
 def volume_problems(scene: SceneFields) -> Iterator[str]:

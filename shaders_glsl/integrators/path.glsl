@@ -69,7 +69,9 @@ float emission_beside_approach(Path path, Ray start, Hit hit, int light) {
     float light_pdf = pdf_light(light, start, hit.distance, path.lamps);
     float rival = rivalry(path.approach, light, choice_pdf(light, start, path.lamps));
     float other = light_pdf * sqrt(1.0 + rival * rival);
-    return WEIGHT_BOTH ? power_heuristic(path.pdf, other) : 0.0;
+    float weight = WEIGHT_BOTH ? power_heuristic(path.pdf, other) : 0.0;
+    record_weight(light_pdf, weight);
+    return weight;
 }
 
 // `emission_weight` of the emission that a segment meets. The segment may have passed holes.
@@ -266,8 +268,10 @@ bool extend_path(inout Path path, inout Sampler rng) {
     float share = weight_of_emission(path, hit, surface.light);
     bool enters = dot(path.ray.direction, true_normal(surface)) < 0.0;
     absorb(path, material, !enters, hit.distance);
+    vec3 arriving = path.scale * path.throughput;
+    if (HAS_MEDIA) arriving *= weight_of_flight(path.flight);
     record_vertex(surface.position, true_normal(surface), surface.normal, object_number(surface.shape), hit.distance,
-                  path.scale * path.throughput);
+                  arriving);
     if (HAS_NESTED && is_within_other_glass(path, material, enters)) {
         pass_glass(path, surface, material, enters);
         return true;

@@ -5,6 +5,7 @@ void gather_glow(inout Path path, Medium medium, float distance) {
     if (medium.emission == vec3(0.0)) return;
     vec3 weight = path.scale * path.throughput * weight_of_flight(path.flight);
     vec3 light = weight * medium.emission * integral_of_decay(medium.extinction, distance);
+    record_light(BY_SCATTERING, FROM_MEDIUM - path.flight.medium, path.pdf, medium.emission, light);
     gather(path, light, medium.layer, path.depth);
 }
 
@@ -47,8 +48,21 @@ Approach approach_lamps(inout Path path, Medium medium, float distance) {
     direct *= light_left(light.ray, light.distance, light.shape, path.flight.medium);
     hole_key = own;
     if (LIGHT_TERMS != 0) sort_by_medium(path);
+    record_weight(0.0, weight);
+    record_light(BY_SAMPLING, object_number(light.shape), pdf, light.radiance, direct);
     gather(path, direct, light.layer, path.depth + 1);
     return found;
+}
+
+// Scatters the path where it collides, so far on its segment: its ray starts there.
+void collide(inout Path path, Medium medium, float way) {
+    path.throughput *= weight_of_collision(path.flight, medium);
+    path.flight.left = vec3(1.0);
+    path.ray.origin += way * path.ray.direction;
+    path.ray.origin_shape = NO_SHAPE;
+    vec3 along = path.ray.direction;
+    int object = FROM_MEDIUM - path.flight.medium;
+    record_vertex(path.ray.origin, along, along, object, way, path.scale * path.throughput);
 }
 
 // Flies over a segment of this length through a grid, like `collides`.
@@ -56,7 +70,10 @@ bool collides_in_grid(inout Path path, Medium medium, float distance) {
     if (medium.scattering == vec3(0.0)) {
         GridShare found = cross_grid(medium, path.ray, distance);
         vec3 light = path.scale * path.throughput * weight_of_flight(path.flight) * found.glow;
-        if (medium.emission != vec3(0.0)) gather(path, light, medium.layer, path.depth);
+        if (medium.emission != vec3(0.0)) {
+            record_light(BY_SCATTERING, FROM_MEDIUM - path.flight.medium, path.pdf, medium.emission, light);
+            gather(path, light, medium.layer, path.depth);
+        }
         path.throughput *= found.share;
         return false;
     }
@@ -79,14 +96,13 @@ bool collides_in_grid(inout Path path, Medium medium, float distance) {
         vec3 real = density * medium.extinction;
         if (medium.emission != vec3(0.0)) {
             vec3 weight = path.flight.left / dot(path.flight.chances, path.flight.left * rates * top);
-            gather(path, path.scale * path.throughput * weight * density * medium.emission, medium.layer, path.depth);
+            vec3 light = path.scale * path.throughput * weight * density * medium.emission;
+            record_light(BY_SCATTERING, FROM_MEDIUM - path.flight.medium, path.pdf, medium.emission, light);
+            gather(path, light, medium.layer, path.depth);
         }
         if (next_of_collision() * rate < real[path.flight.channel]) {
             if (HAS_EQUIANGULAR) path.approach = no_approach();
-            path.throughput *= weight_of_collision(path.flight, medium);
-            path.flight.left = vec3(1.0);
-            path.ray.origin += march.way * path.ray.direction;
-            path.ray.origin_shape = NO_SHAPE;
+            collide(path, medium, march.way);
             return true;
         }
         path.flight.left *= max(top * rates - real, vec3(0.0));
@@ -101,14 +117,39 @@ bool collides_in_grid(inout Path path, Medium medium, float distance) {
 void cross_volume(inout Path path, float distance) {
     GridShare found = cross_classified(path.flight.medium, path.ray, distance);
     vec3 light = path.scale * path.throughput * weight_of_flight(path.flight) * found.glow;
+    record_light(BY_SCATTERING, FROM_MEDIUM - path.flight.medium, path.pdf, found.glow, light);
     gather(path, light, medium_at(path.flight.medium).layer, path.depth);
     path.throughput *= found.share;
+}
+
+// Flies over a segment of this length in steps, through a grid or a scientific volume, like `collides`.
+bool collides_in_steps(inout Path path, float distance) {
+    int row = path.flight.medium;
+    Medium medium = medium_at(row);
+    Steps steps = first_step(medium, path.ray, distance);
+    while (is_in_grid(steps)) {
+        Medium even = medium_of_step(row, medium, steps);
+        float length = steps.end - steps.begin;
+        gather_glow(path, even, length);
+        float way;
+        if (medium.scattering == vec3(0.0)) {
+            path.throughput *= share_left(even.extinction, length);
+        } else if (flies_into(path.flight, even, length, way)) {
+            if (HAS_EQUIANGULAR) path.approach = no_approach();
+            collide(path, even, steps.begin + way);
+            return true;
+        }
+        next_step(steps);
+    }
+    note_end(is_in_grid(steps) ? 0 : 1, 1);
+    return false;
 }
 
 // Flies over a segment of this length. True if the path collides there: then its ray starts at the collision. A
 // medium that only absorbs takes its share without chance.
 bool collides(inout Path path, float distance) {
     if (path.flight.medium == NO_MEDIUM) return false;
+    if (MARCHES && has_grid(medium_at(path.flight.medium))) return collides_in_steps(path, distance);
     if (HAS_TRANSFER && is_classified(path.flight.medium)) {
         cross_volume(path, distance);
         return false;
@@ -123,22 +164,15 @@ bool collides(inout Path path, float distance) {
     Approach approach = no_approach();
     if (HAS_EQUIANGULAR && path.flight.dice.x >= 0.0) approach = approach_lamps(path, medium, distance);
     float chance = dot(path.flight.chances, path.flight.left);
-    float extinction = medium.extinction[path.flight.channel];
-    float depth = extinction * distance;
-    bool is_met = path.flight.depth < depth;
-    float way = is_met ? path.flight.depth / extinction : distance;
-    path.flight.left *= share_left(medium.extinction, way);
-    path.flight.depth -= depth;
+    float way;
+    bool is_met = flies_into(path.flight, medium, distance, way);
     if (is_met) {
         if (HAS_EQUIANGULAR) {
             path.approach = approach;
             path.approach.way = way;
             if (approach.density > 0.0) path.approach.density = density_of_collision(path.flight, medium) / chance;
         }
-        path.throughput *= weight_of_collision(path.flight, medium);
-        path.flight.left = vec3(1.0);
-        path.ray.origin += way * path.ray.direction;
-        path.ray.origin_shape = NO_SHAPE;
+        collide(path, medium, way);
     }
     return is_met;
 }
@@ -150,18 +184,24 @@ void land(inout Path path) {
 }
 
 // Adds light of a sample, scattered by a medium where the path collides.
-void gather_in_medium(inout Path path, Medium medium, LightSample light) {
+void gather_in_medium(inout Path path, Medium medium, LightSample light, int source) {
     if (light.pdf == 0.0 || is_dark(light)) return;
     float phase = eval_phase(medium.anisotropy, path.ray.direction, light.ray.direction);
     float weight = phase / light.pdf;
+    float share = 1.0;
     if (HAS_EQUIANGULAR && light.light >= 0) {
         float rival = rivalry(path.approach, light.light, choice_pdf(light.light, path.ray, path.lamps));
-        weight *= weight_beside_approach(light.pdf, WEIGHT_BOTH ? phase : 0.0, rival);
+        share = weight_beside_approach(light.pdf, WEIGHT_BOTH ? phase : 0.0, rival);
     } else if (WEIGHT_BOTH) {
-        weight *= power_heuristic(light.pdf, phase);
+        share = power_heuristic(light.pdf, phase);
     }
+    weight *= share;
     vec3 left = light_left(light.ray, light.distance, light.shape, path.flight.medium);
     vec3 direct = path.scale * path.throughput * left * weight * light.radiance;
+    record_weight(WEIGHT_BOTH ? phase : 0.0, share);
+    if (left == vec3(0.0)) record_shadow();
+    record_sample(light.ray.direction, light.distance);
+    record_light(BY_SAMPLING, source, light.pdf, light.radiance, direct);
     gather(path, direct, light.layer, path.depth + 1);
 }
 
@@ -179,11 +219,15 @@ bool scatter_in_medium(inout Path path, inout Sampler rng) {
     Medium medium = medium_at(path.flight.medium);
     path.lamps = total_weight(path.ray);
     if (LIGHT_TERMS != 0) sort_by_medium(path);
-    if (SAMPLE_LIGHTS) gather_in_medium(path, medium, sample_light(path.ray, path.lamps, rng));
-    if (SAMPLE_SKY) gather_in_medium(path, medium, sample_sky(path.ray, rng));
-    if (SAMPLE_SUN) gather_in_medium(path, medium, sample_sun(path.ray, rng));
+    if (SAMPLE_LIGHTS) {
+        LightSample light = sample_light(path.ray, path.lamps, rng);
+        gather_in_medium(path, medium, light, object_number(light.shape));
+    }
+    if (SAMPLE_SKY) gather_in_medium(path, medium, sample_sky(path.ray, rng), FROM_BACKGROUND);
+    if (SAMPLE_SUN) gather_in_medium(path, medium, sample_sun(path.ray, rng), FROM_SUN);
     vec3 from = path.ray.direction;
     path.ray.direction = sample_phase(medium.anisotropy, from, next_2d(rng));
+    record_scattering(from, path.ray.direction, eval_phase(medium.anisotropy, from, path.ray.direction), false);
     if (ROULETTE && roulette_ends(path.throughput, rng)) {
         record_end(END_BY_ROULETTE);
         return false;

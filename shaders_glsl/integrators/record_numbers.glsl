@@ -16,6 +16,7 @@ const int BY_PARTICLE = 2;    // a particle from there was linked to the camera
 // The source of light that comes from no object of the scene.
 const int FROM_BACKGROUND = -1;
 const int FROM_SUN = -2;
+const int FROM_MEDIUM = -3;  // minus the row of the medium; also the object of a vertex where a medium scatters
 
 // Why a path ended.
 const int END_LEFT_SCENE = 1;

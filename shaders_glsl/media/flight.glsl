@@ -55,6 +55,18 @@ vec3 weight_of_collision(Flight flight, Medium medium) {
     return weight;
 }
 
+// Flies over a distance through a medium that is the same everywhere. True if the path collides on its way, `way` from
+// the start.
+bool flies_into(inout Flight flight, Medium medium, float distance, out float way) {
+    float extinction = medium.extinction[flight.channel];
+    float depth = extinction * distance;
+    bool is_met = flight.depth < depth;
+    way = is_met ? flight.depth / extinction : distance;
+    flight.left *= share_left(medium.extinction, way);
+    flight.depth -= depth;
+    return is_met;
+}
+
 // The medium behind the bounds of an object; `medium` itself if the object bounds nothing.
 int medium_behind(int medium, int object, bool enters) {
     for (int i = 0; i < BOUNDARIES; ++i) {
@@ -62,20 +74,6 @@ int medium_behind(int medium, int object, bool enters) {
         if (bounds.object == object) return enters ? bounds.inside : bounds.outside;
     }
     return medium;
-}
-
-// (1 - exp(-x d)) / x: the integral of what is left of light, over the distance d. The series is right to 2e-8.
-float integral_of_decay(float x, float d) {
-    float depth = x * d;
-    float p = 1.0 / 24.0 - depth / 120.0;
-    p = 1.0 / 6.0 - p * depth;
-    p = 0.5 - p * depth;
-    float integral = depth > 0.1 ? (1.0 - decay(depth)) / x : d * (1.0 - p * depth);
-    return integral;
-}
-
-vec3 integral_of_decay(vec3 x, float d) {
-    return vec3(integral_of_decay(x.x, d), integral_of_decay(x.y, d), integral_of_decay(x.z, d));
 }
 
 // The share of light that reaches a point from `distance` away, through media and their bounds; 0 where a surface
@@ -90,7 +88,9 @@ vec3 light_left(Ray ray, float distance, int lamp, int medium) {
     for (; passed <= MOST_HOLES; passed += 1u) {
         Hit hit = find_hit(ray, limit, is_shared ? NO_SHAPE : lamp, false);
         bool arrives = hit.shape == (is_shared ? lamp : NO_SHAPE);
-        if (HAS_TRANSFER && is_classified(medium)) {
+        if (MARCHES && medium != NO_MEDIUM && has_grid(medium_at(medium))) {
+            left *= march_across(medium, ray, hit.distance).share;
+        } else if (HAS_TRANSFER && is_classified(medium)) {
             left *= cross_classified(medium, ray, hit.distance).share;
         } else if (HAS_GRID && medium != NO_MEDIUM && has_grid(medium_at(medium))) {
             left *= cross_grid(medium_at(medium), ray, hit.distance).share;

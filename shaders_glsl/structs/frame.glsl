@@ -62,4 +62,5 @@ struct Frame {
     float phong_diffuse;
     float phong_specular;
     int phong_exponent;
+    float march_step;       // length of a step; 0: that of a voxel. Where MARCHES
 };

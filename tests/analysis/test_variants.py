@@ -7,6 +7,7 @@ import pytest
 from glrt.analysis.variants import variants_of
 from glrt.denoise import oidn
 from glrt.image.sources import load
+from glrt.scene.grids import edges_of_voxels
 from glrt.settings import settings_for
 from tests.support.builders import MATTE, glass, lamp, quad, scene_of, sphere
 
@@ -65,3 +66,22 @@ def test_the_denoisers_that_are_installed_are_charted(
     variants = variants_of(scene, settings_for(scene.render), ["mis"])
     denoised = {v.name: v.settings.denoise for v in variants if v.settings.denoise != "none"}
     assert denoised == {f"mis, denoised by {name}": name for name in filters}
+
+
+def test_steps_are_charted_in_two_lengths_where_there_is_a_grid() -> None:
+    scene = load("smoke")
+    found = {it.name: it.settings for it in variants_of(scene, settings_for(scene.render))}
+    marched = {name: it.march_step for name, it in found.items() if it.method == "march"}
+    assert list(marched) == ["march", "march, 8 times the step"]
+    (edge,) = edges_of_voxels(scene, "smoke")
+    assert [*marched.values()] == [0.0, pytest.approx(8 * edge)]
+    plain = load("fog")
+    names = [it.name for it in variants_of(plain, settings_for(plain.render))]
+    assert not any("march" in name for name in names)
+
+
+def test_methods_that_refuse_media_are_not_charted_with_them() -> None:
+    scene = load("fog")
+    methods = {it.settings.method for it in variants_of(scene, settings_for(scene.render))}
+    assert not methods & {"ddgi", "gather", "resampled", "hybrid"}
+    assert methods >= {"naive", "nee", "mis"}

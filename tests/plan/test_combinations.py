@@ -63,7 +63,9 @@ REFUSED = [pair for pair in pairs() if not works(*pair)]
     "reuse of points---denoise",
     "reuse of points---error",
 )
-@pytest.mark.slow_cases("*--caustics*", "a merged picture-*", "*terms of light*", "*hybrid*")
+@pytest.mark.slow_cases(
+    "*--caustics*", "a merged picture-*", "*terms of light*", "*hybrid*", "*method march*"
+)
 @pytest.mark.slow_cases(
     "light by layers---*", "a classic lighting model---*", "the independent*---*"
 )
@@ -95,6 +97,7 @@ NEVER_ASKED = [  # no command line does
     {Way.AUTO, Way.REUSE},
     {Way.CLASSIC, Way.REUSE},
     *({Way.HYBRID, other} for other in (Way.AUTO, Way.CLASSIC, Way.REUSE)),
+    *({Way.MARCH, it} for it in (Way.AUTO, Way.CLASSIC, Way.PROBES, Way.REUSE, Way.HYBRID)),
     {Way.PARTICLES, Way.PILOT},
 ]
 

@@ -113,6 +113,7 @@ WAYS = [  # a crowd has too many shapes to be baked; particles and probes have n
 @pytest.mark.slow_cases(
     *("by constants-tier-baked", "by constants-pipeline-fragment"),
     *("drawn-tier-baked", "drawn-pipeline-fragment"),
+    *("hazy by steps-tier-baked", "hazy by steps-pipeline-fragment"),
 )
 @pytest.mark.parametrize(("name", "key", "way"), WAYS)
 def test_tiers_and_pipelines(

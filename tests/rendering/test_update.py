@@ -73,6 +73,7 @@ CHANGES: dict[str, Any] = {
     "probes": 3,
     "reuse": "both",
     "unbiased": False,
+    "march_step": 0.5,
     "seed": 5,
     "exposure": 1.5,
     "tonemap": "agx",

@@ -11,8 +11,11 @@ from numpy.testing import assert_allclose
 import glrt
 from glrt.core.errors import SceneError
 from glrt.image.sources import load
+from glrt.packing.media import pack_media
+from glrt.packing.voxel_texture import grids_of
+from glrt.plan.facts import SceneFacts
 from glrt.scene.files.named_grids import BRICK, MOST_VOXELS, GridFile, decode_grid
-from glrt.scene.grids import grid_of, placement_of, steps_across
+from glrt.scene.grids import grid_of, holders_of, placement_of, steps_across
 from glrt.scene.loading.scene_files import check_loaded, files_of, hashes_of
 from glrt.scene.scene import Scene
 from glrt.scene.scenefile.toml import parse_scene
@@ -90,7 +93,7 @@ def test_an_array_is_saved_with_its_scene(tmp_path: Path) -> None:
     (file,) = files_of(again)
     assert np.array_equal(np.load(tmp_path / file), VALUES)
     assert np.array_equal(grid_of(again, "smoke").voxels, grid_of(scene, "smoke").voxels)
-    first, second = (placement_of(it, "smoke").linear for it in (scene, again))
+    first, second = (placement_of(it, "smoke", 0).linear for it in (scene, again))
     assert np.array_equal(first, second)
 
 
@@ -123,13 +126,13 @@ def test_the_bound_of_a_brick_holds_between_voxels_too() -> None:
     ids=["sphere", "box", "turned box", "turned mesh"],
 )
 def test_a_grid_fills_the_box_of_its_object(thing: Any, middle: Any, corner: Any) -> None:
-    place, size = placement_of(in_it(thing), "smoke"), np.array(VALUES.shape[::-1])
+    place, size = placement_of(in_it(thing), "smoke", 0), np.array(VALUES.shape[::-1])
     assert_allclose(place.linear @ middle + place.origin, size / 2, atol=1e-9)
     assert_allclose(place.linear @ corner + place.origin, [0, 0, 0], atol=1e-9)
 
 
 def test_a_grid_has_a_box_of_its_own() -> None:
-    place = placement_of(in_it(sphere([0, 0, 0], 2, ""), min=(0, 0, 0), max=(1, 1, 1)), "smoke")
+    place = placement_of(in_it(sphere([0, 0, 0], 2, ""), min=(0, 0, 0), max=(1, 1, 1)), "smoke", 0)
     assert_allclose(place.linear @ [1, 1, 1] + place.origin, VALUES.shape[::-1])
 
 
@@ -179,13 +182,21 @@ def test_a_damaged_file_is_refused(folder: Path, damage: Any) -> None:
         load(folder / "scene.toml")
 
 
-def test_a_grid_lies_in_one_place() -> None:
-    ball = sphere([0, 0, 0], 1, "")
-    smoke = glrt.Medium(scattering=(1, 1, 1), density=glrt.Density(VALUES))
-    two = [filled(ball, "smoke"), filled({**ball, "center": [5, 0, 0]}, "smoke")]
-    found = scene_of(two, {}, media={"smoke": smoke})
-    with pytest.raises(SceneError, match=r"media\.smoke\.density: 2 objects .* of its own"):
-        check_loaded(found)
+def test_a_grid_lies_in_each_object_that_its_medium_fills() -> None:
+    """Its voxels are kept once, and so are those of another medium with the same grid."""
+    ball, grid = sphere([0, 0, 0], 1, ""), glrt.Density(VALUES)
+    smoke = {it: glrt.Medium(scattering=(1, 1, 1), density=grid) for it in ("smoke", "ash")}
+    balls = [{**ball, "center": [x, 0, 0]} for x in (0, 5, 9)]
+    three = [filled(it, name) for it, name in zip(balls, ("smoke", "smoke", "ash"), strict=True)]
+    found = scene_of(three, {}, media=smoke)
+    check_loaded(found)
+    assert [holders_of(found, name) for name in smoke] == [(0, 1), (2,)]
+    rows = pack_media(SceneFacts(found))
+    assert rows["Medium"]["first"].tolist() == [0, 0, 0]
+    assert [it.sha256 for it in grids_of(SceneFacts(found))] == [grid.file.sha256]
+    places = rows["Medium"]["at_x"] / rows["Medium"]["x"][:, 0]
+    assert_allclose(places, [1, -4, -8])  # the lowest corner, from the camera, which is at 0
+    assert rows["Boundary"]["inside"].tolist() == [0, 1, 2]
 
 
 @pytest.mark.parametrize("medium", [None, "smoke"])

@@ -83,7 +83,7 @@ def test_a_ray_takes_more_steps_through_what_is_denser() -> None:
 def test_knots_follow_their_medium() -> None:
     facts = SceneFacts(scanned().model_copy(update={"lights": {"media.last": 0.5}}))
     rows = pack_media(facts)["Medium"]
-    assert [medium_row(facts, name) for name in facts.media.names] == [0, 5, 6]
+    assert [medium_row(facts, it) for it in facts.media.rows] == [0, 5, 6]
     assert medium_row(facts, None) == -1
     assert [knots_of(facts, name) for name in facts.media.names] == [4, 0, 4]
     assert_allclose(rows["emission"][7:, 0], KNOTS["values"])

@@ -148,3 +148,22 @@ def test_places_along_a_segment_follow_their_density(call_glsl: CallGlsl, end: f
     assert_allclose(way, foot + height * np.tan(first + u * (last - first)), rtol=5e-3, atol=1e-6)
     assert (np.diff(way) > 0).all()
     assert way.max() <= end
+
+
+def test_six_flights_go_as_far_as_their_turns_let_them(call_glsl: CallGlsl) -> None:
+    """The mean square of the way is 2 (n / (1 - g) - g (1 - g^n) / (1 - g)^2) / m^2."""
+    n, g, m = 6, 0.6, 2.0
+    setup = """
+        vec3 place = vec3(0.0);
+        vec3 towards = vec3(0.0, 0.0, 1.0);
+        Flight flight = start_flight(NO_MEDIUM);
+        for (int k = 0; k < steps; ++k) {
+            begin_flight(flight, vec3(1.0), rng);
+            place += flight.depth / m * towards;
+            towards = sample_phase(g, towards, next_2d(rng));
+        }"""
+    given = {"steps": np.full(DRAWS, n, np.int32), "g": one(g), "m": one(m)}
+    found = call_glsl("dot(place, place)", setup=RNG + setup, **given).astype(np.float64)
+    truth = 2 / m**2 * (n / (1 - g) - g * (1 - g**n) / (1 - g) ** 2)
+    assert truth == pytest.approx(22.850 / 4, abs=1e-3)
+    assert abs(found.mean() - truth) < 4.5 * found.std() / DRAWS**0.5

@@ -1,4 +1,4 @@
-"""Nine renders that together use every feature of the kernel, and the settings that ask for them.
+"""Eleven renders that together use every feature of the kernel, and the settings that ask for them.
 
 tests/rendering/test_equal_bits.py renders each in every way, and fails if a feature is in none.
 """
@@ -170,5 +170,6 @@ RENDERS: dict[str, tuple[Scene, dict[str, Any]]] = {
     "shared places": (shared_places(), {"method": "resampled", "reuse": "both", "probes": 2}),
     "pictured": (pictured(), {"method": "mis", "roulette": False}),
     "hazy": (hazy(), {"method": "mis"}),
+    "hazy by steps": (hazy(), {"method": "march", "march_step": 0.1}),
     "drawn": (mapped(), {"method": "hybrid", "effects": TRACED}),
 }

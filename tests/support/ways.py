@@ -27,6 +27,7 @@ OPTIONS: dict[Way, Options] = {
     Way.PROBES: ["--method", "ddgi", "--probes", "2"],
     Way.REUSE: ["--method", "resampled", "--reuse", "both", "--probes", "2"],
     Way.HYBRID: ["--method", "hybrid", "--effects", "shadows,reflections"],
+    Way.MARCH: ["--method", "march", "--march-step", "0.1"],
     Way.PARTICLES: ["--caustics", "on"],
     Way.PILOT: ["--caustics", "auto"],
     Way.DENOISE: ["--denoise", "nlm"],
@@ -167,6 +168,14 @@ def method_law(way: Way) -> Callable[[Render], None]:
     return law
 
 
+def march_law(render: Render) -> None:
+    """It has its own method, and without a grid the picture of mis, to the bit."""
+    image = render(OPTIONS[Way.MARCH])
+    assert image.recipe
+    assert image.recipe.settings.method == "march"
+    assert same(image, render([]))
+
+
 def pilot_law(render: Render) -> None:
     """It is the picture of what was chosen."""
     image = render(OPTIONS[Way.PILOT])
@@ -216,6 +225,7 @@ LAWS: dict[Way, Callable[[Render], None]] = {
     Way.FRAGMENT: fragment_law,
     Way.INDEPENDENT: noise_law(Way.INDEPENDENT, 512),
     **{way: method_law(way) for way in (Way.CLASSIC, Way.PROBES, Way.REUSE, Way.HYBRID)},
+    Way.MARCH: march_law,
     Way.PARTICLES: noise_law(Way.PARTICLES, 2048),
     Way.PILOT: pilot_law,
     Way.DENOISE: denoise_law,

@@ -72,6 +72,35 @@ def test_a_grid_that_scatters_lets_through_what_beer_says(context: Context, valu
     assert_mean(whole(image), np.exp(-MU * depth_along_z(values)), 0.1)
 
 
+def test_a_grid_that_absorbs_is_as_noisy_as_ratio_tracking(context: Context) -> None:
+    """The mean square of the share is exp(-the integral of 2 m - m^2 / M) (Novák et al. 2014).
+
+    M is the density of the fictitious medium: that of the densest channel at the densest place of a
+    brick, which the voxels around it bound, too.
+    """
+    layers = RAMP[:, 0, 0].astype(float)
+    place = (np.arange(100_000) + 0.5) / 100_000 * len(layers)  # in voxels
+    density = np.interp(place - 0.5, np.arange(len(layers)), layers)
+    tops = np.array([layers[max(first - 1, 0) : first + 9].max() for first in range(0, 32, 8)])
+    real, most = MU[:, None] * density, MU.max() * tops[(place // 8).astype(int)]
+    square, mean = (np.exp(-2 * it.mean(axis=1)) for it in (2 * real - real**2 / most, real))
+    scene = with_smoke(smoke(RAMP, absorption=MU), background=EVEN)
+    image = rendered(scene, context, 2048)
+    found = np.square(image.stderr, dtype=np.float64).mean(axis=(0, 1)) * 2048
+    assert_allclose(found, square - mean**2, rtol=0.02)
+
+
+def test_gray_smoke_lets_light_pass_whole_or_not_at_all(context: Context) -> None:
+    """Delta tracking has the variance T (1 - T): each sample is 0 or 1."""
+    scene = with_smoke(smoke(RAMP, 0.75, 0.25), background=EVEN)
+    image = rendered(scene, context, 1, bounces=0)
+    assert np.unique(image.radiance.round(6)).tolist() == [0.0, 1.0]
+    many = rendered(scene, context, 512, bounces=0)
+    found = np.square(many.stderr, dtype=np.float64).mean(axis=(0, 1)) * 512
+    left = np.exp(-depth_along_z(RAMP))
+    assert_allclose(found, left * (1 - left), rtol=0.02)
+
+
 @pytest.mark.slow
 def test_a_shadow_is_as_deep_as_the_grid(context: Context) -> None:
     """A floor under smoke that scatters; direct light of a lamp straight above it, far away."""
@@ -230,6 +259,18 @@ def test_lengths_that_are_twice_as_large_keep_the_bits(context: Context) -> None
 
     first, second = (rendered(scene(size), context, 16) for size in (1.0, 8.0))
     assert same(first, second)
+
+
+def test_a_grid_lies_in_two_objects(context: Context) -> None:
+    """A box twice as deep has twice the depth, and one that is turned has it from the other end."""
+    steep = np.zeros((32, 3, 2), np.float32)
+    steep[16:] = 1.0  # above the middle
+    high = {**filled(box([3, -1, -2], [5, 1, 2], "")), "rotate": [0, 180, 0]}
+    for x, top, truth in ((0.0, -0.1, 1.0), (4.0, -0.5, np.exp(-1.5 * MU))):
+        camera = {"position": [x, 0, top], "look_at": [x, 0, top - 1], "fov": 0.01}
+        fog = smoke(steep, absorption=MU)
+        image = rendered(with_smoke(fog, [CUBE, high], camera, background=EVEN), context, 1024)
+        assert_mean(whole(image), np.broadcast_to(truth, 3), 0.2)
 
 
 # --- limits ----------------------------------------------------------------------------------

@@ -8,7 +8,9 @@ import numpy as np
 
 from glrt.gpu.glsl import read
 from glrt.gpu.structs import read_structs
+from glrt.packing.media import medium_row
 from glrt.packing.shapes import order_of_kernel
+from glrt.plan.facts import SceneFacts
 from glrt.rendering.paths.values import (
     ENDS,
     NUMBERS,
@@ -87,6 +89,8 @@ class _Reader:
     def __init__(self, scene: Scene) -> None:
         self._scene, self._order = scene, order_of_kernel(scene)
         self._eye = np.array(scene.camera.position, np.float64)
+        facts = SceneFacts(scene)
+        self._media = {medium_row(facts, it): it.medium for it in facts.media.rows}
 
     def path(self, number: int, sample: Any, vertices: Array, lights: Array) -> Path:
         """The path of one sample."""
@@ -114,7 +118,7 @@ class _Reader:
             normal=_triple(record["normal"]),
             shading_normal=_triple(shading),
             object=number,
-            name=CAMERA if number is None else object_name(self._scene, number),
+            name=self._name(int(record["object"]), CAMERA),
             material=None if number is None else self._scene.objects[number].material,
             distance=float(record["way"]),
             throughput=_triple(record["throughput"]),
@@ -130,8 +134,10 @@ class _Reader:
     def _event(self, event: int, number: int | None, pdf: float) -> Event:
         if event == NUMBERS["EVENT_SENT"] and number is not None:
             return "lamp"
-        if event in _PASSING or number is None:
+        if event in _PASSING:
             return _PASSING[event]
+        if number is None:
+            return "scattering in a medium"
         if event == NUMBERS["EVENT_CROSSED"]:
             return "rough transmission" if pdf else "specular transmission"
         if not pdf:
@@ -143,14 +149,14 @@ class _Reader:
 
     def _light(self, record: Any, vertices: Sequence[PathVertex]) -> Contribution:
         kernel, at = int(record["object"]), int(record["vertex"])
-        source = _SKIES.get(kernel, "object")
+        source = "medium" if kernel <= NUMBERS["FROM_MEDIUM"] else _SKIES.get(kernel, "object")
         number = self._object(kernel)
         return Contribution(
             vertex=at,
             strategy=_strategy(int(record["strategy"]), vertices[: at + 1], source),
             source=source,
             object=number,
-            name=source if number is None else object_name(self._scene, number),
+            name=self._name(kernel, source),
             radiance=_triple(record["radiance"]),
             direction=_triple(record["direction"]) if record["distance"] else None,
             distance=float(record["distance"]) or None if source == "object" else None,
@@ -160,6 +166,12 @@ class _Reader:
             added=_triple(record["added"]),
             hidden=bool(record["is_hidden"]),
         )
+
+    def _name(self, kernel: int, other: str) -> str:
+        """The name of an object or a medium by the kernel's number, `other` for neither."""
+        if kernel <= NUMBERS["FROM_MEDIUM"]:
+            return self._media[NUMBERS["FROM_MEDIUM"] - kernel]
+        return object_name(self._scene, self._order[kernel]) if kernel >= 0 else other
 
     def _object(self, kernel: int) -> int | None:
         return self._order[kernel] if kernel >= 0 else None

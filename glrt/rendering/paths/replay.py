@@ -30,7 +30,6 @@ from glrt.rendering.pipelines import KernelOptions, Tier
 from glrt.rendering.schedule import dispatch_limits
 from glrt.scene.instancing import Apart
 from glrt.scene.scene import Scene
-from glrt.scene.summary import few
 from glrt.settings import Settings
 
 Array = np.ndarray[Any, Any]
@@ -137,11 +136,6 @@ def arrived(records: Sequence[Array]) -> PixelParticles:
 def check_followed(plan: Plan) -> None:
     """Raise UsageError for a method or a scene whose paths are not recorded."""
     settings = plan.settings
-    if plan.facts.media.names:
-        raise UsageError(
-            f"paths are not shown in media ({few(plan.facts.media.names)}): what happens within "
-            "them is not recorded yet. Remove the media to see the paths between surfaces."
-        )
     if METHODS[settings.method].model:
         raise UsageError(
             f"paths are not shown of the method {settings.method}: it is a lighting model, which "

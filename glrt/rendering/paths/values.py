@@ -24,12 +24,13 @@ Event = Literal[
     "rough reflection",
     "specular transmission",
     "rough transmission",
+    "scattering in a medium",
     "passes a hole",
     "passes inside glass",
     "ends",
 ]
 Strategy = Literal["camera", "scattering", "light sampling", "particle"]
-Source = Literal["object", "background", "sun"]
+Source = Literal["object", "background", "sun", "medium"]
 End = Literal[
     "left the scene",
     "bounce limit",
@@ -69,7 +70,7 @@ class PathVertex(_Value):
     normal: Triple = Field(description="unit; of the shape: outward where it has an inside")
     shading_normal: Triple = Field(description="unit; as `normal`, by the mesh or by an image")
     object: int | None = Field(description="its number among the objects of the scene, from 0")
-    name: str = Field(description="of the object")
+    name: str = Field(description="of the object, or of the medium that scatters")
     material: str | None = Field(description="its name")
     distance: float = Field(description="from the vertex before, in scene units")
     throughput: Triple = Field(
@@ -90,8 +91,8 @@ class Contribution(_Value):
     )
     source: Source = Field(description="what shines")
     object: int | None = Field(description="its number among the objects of the scene, from 0")
-    name: str = Field(description="of the object")
-    radiance: Triple = Field(description="that shines there")
+    name: str = Field(description="of the object, or of the medium")
+    radiance: Triple = Field(description="that shines there; of a medium: per unit of length")
     direction: Triple | None = Field(description="unit; from the vertex to what was sampled")
     distance: float | None = Field(description="to a sampled point, in scene units")
     pdf: float = Field(description="density per solid angle with which it was found; 0: a delta")

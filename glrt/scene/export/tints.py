@@ -9,7 +9,13 @@ from glrt.scene.export.left_out import Report
 from glrt.scene.materials.dielectric import Dielectric
 from glrt.scene.materials.kinds import glass_of
 from glrt.scene.scene import Scene
-from glrt.scene.volumes import MOST_VOLUMES, bounds_a_volume, holders_of, medium_around
+from glrt.scene.volumes import (
+    MOST_VOLUMES,
+    bounds_a_volume,
+    medium_in,
+    outer_volumes,
+    volume_around,
+)
 
 
 class Inside(NamedTuple):
@@ -17,6 +23,7 @@ class Inside(NamedTuple):
 
     medium: str | None = None
     glass: str | None = None  # name of its material
+    holder: int | None = None  # number of the object, for a medium with a grid
 
 
 VACUUM = Inside()
@@ -46,13 +53,13 @@ def sides_of(scene: Scene, report: Report) -> dict[int, Sides]:
         return {}
     around: dict[int, list[int]] = {n: [] for n in solids}
     if len(solids) <= MOST_VOLUMES:
-        around |= {n: held for n, held in holders_of(scene).items() if n in around}
+        around |= {n: held for n, held in outer_volumes(scene).items() if n in around}
     else:
         report("which volume lies in which other one")
     return {
         n: Sides(_filling(scene, n, report), _filling(scene, held[-1], report))
         if held
-        else Sides(_filling(scene, n, report), Inside(scene.medium))
+        else Sides(_filling(scene, n, report), _medium(scene, None))
         for n, held in around.items()
     }
 
@@ -60,8 +67,8 @@ def sides_of(scene: Scene, report: Report) -> dict[int, Sides]:
 def around_camera(scene: Scene) -> Inside:
     """Return what the camera stands in."""
     eye = np.array(scene.camera.position, np.float64)
-    if scene.media_in_use and (name := medium_around(scene, eye)):
-        return Inside(name)
+    if scene.media_in_use and (found := _medium(scene, volume_around(scene, eye))).medium:
+        return found
     holding = [it for it in scene.visible if tinted(scene, it.material) and it.holds(eye)]
     inner = min(holding, key=lambda it: it.reach, default=None)
     return Inside(None, inner.material) if inner else VACUUM
@@ -70,8 +77,15 @@ def around_camera(scene: Scene) -> Inside:
 def _filling(scene: Scene, number: int, report: Report) -> Inside:
     thing = scene.objects[number]
     if not tinted(scene, thing.material):
-        return Inside(thing.medium)
+        return _medium(scene, number)
     if thing.medium:
         report(f"the tint of {quoted(thing.material)} around {quoted(thing.medium)}")
-        return Inside(thing.medium)
+        return _medium(scene, number)
     return Inside(None, thing.material)
+
+
+def _medium(scene: Scene, number: int | None) -> Inside:
+    """Return the medium in an object, or with None outside of all."""
+    name = medium_in(scene, number)
+    has_grid = name is not None and scene.media[name].density is not None
+    return Inside(name, None, number if has_grid else None)

@@ -42,6 +42,7 @@ PATHS = ("method", "sampler", "roulette", "seed", "caustics")
 PROBES = ("probes",)  # shown if the method has probes
 PER_UPDATE = next(c for c in controls_of(Probes) if c.name == "per_update")  # with `probes`
 REUSE = ("reuse", "unbiased")  # shown if the method resamples points
+MARCHES = ("march_step",)  # shown if the method crosses media in steps
 PARTICLES = ("particles", "aimed", "linked")  # shown if caustics are on
 PHONG = {c.name: c for c in controls_of(Phong)}  # shown if the method takes these constants
 OWN = {  # switches of constants, with the values that turning one on sets
@@ -143,6 +144,8 @@ def _paths(app: App) -> None:
         _turns(app)
     if METHODS[session.settings.method].resamples:
         _settings(app, REUSE)
+    if METHODS[session.settings.method].marches:
+        _settings(app, MARCHES)
     if session.settings.caustics == "on":
         _settings(app, PARTICLES)
 

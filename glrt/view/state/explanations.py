@@ -15,7 +15,13 @@ EXPLANATIONS: dict[str, str] = {
         "light out. ddgi takes light that has come over several surfaces from a grid of probes, "
         "which blurs it; gather does so one matte surface later, and resampled keeps one of the "
         "points that light the first matte surface. hybrid finds the first surface by "
-        "rasterisation, and traces the effects that are chosen below; with all of them it is ddgi."
+        "rasterisation, and traces the effects that are chosen below; with all of them it is ddgi. "
+        "march crosses smoke in steps of a fixed length, and sees nothing that is finer."
+    ),
+    "march_step": (
+        "A ray through a grid sees the density m in the middle of each step s alone: the share "
+        "exp(-m s) of the light goes on. The error falls with s^2 where density is smooth, and no "
+        "number of samples shows it; mis has none."
     ),
     "sampler": (
         "Where the random numbers of a sample come from. independent: noise falls as 1 / sqrt(N). "

@@ -16,7 +16,7 @@ from glrt.settings import Cost, Settings, settings_for
 from glrt.view.edits.edited_state import State
 
 OWN_NUMBERS: dict[Number, Mode] = {"weight": "wrls", "mask": "ataa"}
-TRANSPORT = "method", "bounces", "roulette", "sampler"  # settings with a history of their own
+TRANSPORT = "method", "bounces", "roulette", "sampler", "march_step"  # each has its own history
 UPSAMPLED = "reconstructed at full size: one pixel in {0} x {0} is sampled"
 HISTORY = "with light of earlier views, until there are {} samples"
 MOST_SEED = 0xFFFFFFFF

@@ -59,11 +59,7 @@ def test_whatever_the_settings(context: Context, settings: dict[str, Any]) -> No
 @pytest.mark.parametrize("name", [*scene_names(), *MORE_SCENES])
 def test_of_every_kind_of_scene(context: Context, name: str, method: str) -> None:
     """Trees, meshes, holes, glass in glass, images, the sun and a sky among them."""
-    if load(name).media:
-        with pytest.raises(UsageError, match="paths are not shown in media"):
-            check(load(name), context, method=method)
-    else:
-        check(load(name), context, method=method)
+    check(load(name), context, method=method)
 
 
 def test_a_single_sample_is_that_of_all(context: Context) -> None:

@@ -54,7 +54,7 @@ class Media:
         if inside == VACUUM:
             return None
         if inside not in self._known:
-            words = self._tint(inside.glass) if inside.glass else self._fog(inside.medium or "")
+            words = self._tint(inside.glass) if inside.glass else self._fog(inside)
             self._known[inside] = {**words, COMMENT: inside.glass or inside.medium}
         return self._known[inside]
 
@@ -63,7 +63,8 @@ class Media:
         absorption = glass.absorption if glass else (0.0, 0.0, 0.0)
         return self._even(np.zeros(3), np.array(absorption), 0.0)
 
-    def _fog(self, name: str) -> Words:
+    def _fog(self, inside: Inside) -> Words:
+        name = inside.medium or ""
         medium = self._scene.media[name]
         if medium.transfer:
             self._report(f"the transfer function of {quoted(name)}")
@@ -75,7 +76,7 @@ class Media:
         if medium.density.min is not None:
             self._report(f"the end of the grid of {quoted(name)} inside its object")
         total = np.maximum(medium.extinction, _LEAST)
-        grid = self._grid(name, total / self._at.factor)
+        grid = self._grid(name, inside.holder, total / self._at.factor)
         how = _scattered(scattering, total, medium.anisotropy)
         return {"type": "heterogeneous", "sigma_t": grid, **how}
 
@@ -84,9 +85,9 @@ class Media:
         how = _scattered(scattering, total, anisotropy)
         return {"type": "homogeneous", "sigma_t": color(total / self._at.factor), **how}
 
-    def _grid(self, name: str, extinction: Floats) -> Words:
+    def _grid(self, name: str, holder: int | None, extinction: Floats) -> Words:
         """Return the extinction of a medium as voxels of three channels in a box."""
-        grid, place = grid_of(self._scene, name), placement_of(self._scene, name)
+        grid, place = grid_of(self._scene, name), placement_of(self._scene, name, holder)
         inverse = np.linalg.inv(place.linear)
         linear = inverse * grid.voxels.shape[::-1]  # from the unit cube
         densities = grid.top * grid.voxels.astype(np.float32)
