@@ -65,7 +65,7 @@ REFUSED = [pair for pair in pairs() if not works(*pair)]
 )
 @pytest.mark.slow_cases("*--caustics*", "a merged picture-*", "*terms of light*", "*hybrid*")
 @pytest.mark.slow_cases(
-    "light by layers---*", "a classic lighting model---*", "the independent*---*"
+    "light by layers---*", "a classic lighting model---*", "the independent*---*", "--sampler net-*"
 )
 @pytest.mark.parametrize(
     ("one", "other"),
@@ -96,6 +96,7 @@ NEVER_ASKED = [  # no command line does
     {Way.CLASSIC, Way.REUSE},
     *({Way.HYBRID, other} for other in (Way.AUTO, Way.CLASSIC, Way.REUSE)),
     {Way.PARTICLES, Way.PILOT},
+    {Way.INDEPENDENT, Way.NET},
 ]
 
 
