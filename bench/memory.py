@@ -41,10 +41,13 @@ class Row(NamedTuple):
 def measure(size: int, sampler: Sampler) -> Row:
     """Render a small and a large picture, each in a process; raises RenderError if one fails."""
     small, large = (_start(pixels, sampler) for pixels in (SMALL, size))
-    block = settings_for(load("cornell").render, sampler=sampler).block
+    settings = settings_for(load("cornell").render, sampler=sampler)
+    block = settings.block
     textures = 2 * (2 if block == 1 else 3)  # mean, variance, incomplete block; all twice
-    film = textures * TEXEL * size**2
-    picture = (PICTURE + (BEGUN if block > 1 else 0)) * size**2
+    picture = PICTURE + (BEGUN if block > 1 else 0)
+    if scrambles := settings.scrambles:  # in place of an incomplete block
+        textures, picture = 2 * (2 + scrambles), PICTURE + scrambles * TEXEL
+    film, picture = textures * TEXEL * size**2, picture * size**2
     return Row(size, sampler, large[0], large[1], small[1], film, picture)
 
 

@@ -30,7 +30,7 @@ Method = Literal[
     "march",
 ]
 Effect = Literal["shadows", "reflections", "refractions", "ambient_occlusion", "gi"]
-Sampler = Literal["sobol", "sobol64", "independent"]
+Sampler = Literal["sobol", "sobol64", "net", "independent"]
 Caustics = Literal["off", "on"]
 ToneMap = Literal["none", "aces", "agx", "neutral"]
 Term = Literal["emission", "direct", "indirect", "diffuse", "glossy", "transmission", "volume"]
@@ -39,7 +39,8 @@ Denoise = Literal["none", "oidn", "nlm", "auto"]
 Reuse = Literal["none", "temporal", "spatial", "both"]
 
 MAX_SAMPLES = 1 << 20  # a float32 running mean is good up to here
-BLOCKS = {"sobol": 16, "sobol64": 64, "independent": 1}  # samples in an observation, by sampler
+NET = 8  # scrambles of sampler net: that of shaders_glsl/film/net.glsl
+BLOCKS = {"sobol": 16, "sobol64": 64, "net": NET, "independent": 1}  # samples of a block
 GUIDES: tuple[Aov, ...] = ("albedo", "normal")  # AOVs that guide a denoiser
 TERMS: tuple[Term, ...] = get_args(Term)  # AOVs that are parts of the picture's light
 EFFECTS: tuple[Effect, ...] = get_args(Effect)  # of rays, by method hybrid
@@ -111,7 +112,8 @@ class Settings(RenderSettings):
         "sobol",
         description="sobol: scrambled Sobol' points in blocks of 16 samples, least noise in most "
         "scenes; sobol64: blocks of 64 samples, even less noise under smooth lighting, with an "
-        "error from 128 samples on; independent: independent random numbers",
+        "error from 128 samples on; net: samples of a pixel fill 8 nets that keep growing, less "
+        "noise from 256 samples on; independent: independent random numbers",
     )
     roulette: Annotated[bool, Editable(Cost.RECOMPILE)] = Field(
         True,
@@ -195,8 +197,21 @@ class Settings(RenderSettings):
 
     @property
     def block(self) -> int:
-        """Number of samples in an observation; errors are estimated over whole observations."""
+        """Number of samples in a block: renders in parts are cut between blocks.
+
+        A block is an observation, over which errors are estimated. With nets, it is one sample of
+        each scramble, and a scramble is an observation.
+        """
         return BLOCKS[self.sampler]
+
+    @property
+    def scrambles(self) -> int:
+        """Number of nets, each with a scramble of its own, that the samples fill; 0: blocks."""
+        return NET if self.sampler == "net" else 0
+
+    def observations(self, samples: int) -> int:
+        """Number of complete observations of `samples` per pixel."""
+        return min(samples, NET) if self.scrambles else samples // self.block
 
     @property
     def gathered(self) -> tuple[Aov, ...]:

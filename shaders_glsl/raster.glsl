@@ -7,6 +7,7 @@
 #include "sampling/unit_float.glsl"
 #include "sampling/sobol.glsl"
 #include "sampling/sobol64.glsl"
+#include "sampling/net.glsl"
 #include "sampling/sampler.glsl"
 #include "sampling/warp.glsl"
 #include "sampling/angle.glsl"

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from glrt.analysis.method_choice.caustics import Finding
 
 SHORT = 30.0  # seconds: of a shorter `--time`, a pilot would take too large a share
+WITHOUT = {Way.TERMS, Way.NET}  # options that particles do not go with
 MANY = 100  # times as efficient: the message reports no larger gain
 
 
@@ -43,7 +44,7 @@ def _is_open(arguments: argparse.Namespace, wanted: Order) -> bool:
     is_asked = getattr(arguments, "caustics", AUTO) == AUTO and not is_automatic(arguments)
     is_new = wanted.begun is None and recipe_of(arguments.scene) is None
     is_short = arguments.time is not None and arguments.time < SHORT
-    fits = arguments.pipeline != "fragment" and Way.TERMS not in ways_of(wanted.settings)
+    fits = arguments.pipeline != "fragment" and not WITHOUT & ways_of(wanted.settings)
     return is_asked and is_new and not is_short and fits
 
 

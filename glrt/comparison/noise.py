@@ -74,7 +74,7 @@ class Pair:
     image_samples: int
     reference_samples: int
     alike: bool
-    block: int = 1
+    block: float = 1
 
     @property
     def observations(self) -> float:

@@ -23,6 +23,7 @@ from glrt.core.errors import UsageError
 from glrt.error.estimate import sidak_threshold
 from glrt.image.image import Image
 from glrt.plan.methods import traits_of
+from glrt.settings import NET
 
 Flags = NDArray[np.bool_]
 
@@ -103,6 +104,8 @@ def _pair(image: Image, reference: Image, broken: Flags, alike: bool | None) -> 
     if alike is None:
         known = not (np.isnan(va) | np.isnan(vb)).any()
         alike = known and _same_method(image, reference)
+    if _has_net(image) or _has_net(reference):
+        alike = alike and image.samples == reference.samples
     # The variance of a picture without standard errors: the other's for its number of samples, or
     # the squared difference less the other's, whichever is more.
     ratio, square = image.samples / reference.samples, np.square(a - b)
@@ -110,12 +113,19 @@ def _pair(image: Image, reference: Image, broken: Flags, alike: bool | None) -> 
         np.where(np.isnan(va), np.maximum(vb / ratio, square - vb), va),
         np.where(np.isnan(vb), np.maximum(va * ratio, square - va), vb),
     )
-    block = _block(image) if _block(image) == _block(reference) else 1
-    return Pair(a, b, *filled, image.samples, reference.samples, alike, block)
+    return Pair(a, b, *filled, image.samples, reference.samples, alike, _block(image, reference))
 
 
-def _block(image: Image) -> int:
-    return image.recipe.settings.block if image.recipe else 1
+def _has_net(image: Image) -> bool:
+    return bool(image.recipe and image.recipe.settings.scrambles)
+
+
+def _block(image: Image, reference: Image) -> float:
+    """Samples of an observation that chance deals out: of the longest scramble, if there is one."""
+    if nets := [i.samples / NET for i in (image, reference) if _has_net(i)]:
+        return max(nets)
+    blocks = {i.recipe.settings.block if i.recipe else 1 for i in (image, reference)}
+    return blocks.pop() if len(blocks) == 1 else 1
 
 
 def _same_method(image: Image, reference: Image) -> bool:

@@ -4,6 +4,7 @@ Modules, each importing only what stands above it:
 
 - tonemap: from radiance to the colours of a screen
 - aovs: AOVs of a picture, in channels of a file
+- net_channels: the means of nets, by scrambles, and the error that follows from them
 - film_state: state of a film in addition to its mean, in channels of a file
 - particle_film: a picture as the sum of two films, in channels of a file
 - partition: a render in parts

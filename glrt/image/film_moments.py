@@ -11,21 +11,38 @@ from glrt.image.image import Image
 from glrt.image.moments import Moments
 from glrt.image.particle_film import ParticleFilm, observations_of
 
-RADIANCE, PARTICLES = "radiance", "particles"  # films, in addition to those of AOVs
+# Films, in addition to those of AOVs. That of nets has the scrambles below each other.
+RADIANCE, PARTICLES, NETS = "radiance", "particles", "nets"
 NOTHING = np.zeros((1, 1, 1))
 
 
 def moments_of(image: Image, film: str) -> Moments | None:
-    """Moments of one film: radiance, particles or an AOV; None if the picture lacks its state."""
+    """Moments of one film: of radiance, particles, nets or an AOV; None if its state is lacking."""
     aovs = {str(aov): found for aov, found in image.aovs.items()}
     if film in aovs:
         return _of_aov(aovs[film])
     if film == PARTICLES and image.particles and image.recipe:
         count = observations_of(image.samples, image.recipe.settings.block)
         return _of_particles(image.particles, count)
-    if film != RADIANCE or image.film_state is None:
+    if image.film_state is None:
         return None
-    return _of_radiance(image, image.film_state)
+    if film == NETS:
+        return _of_nets(image.film_state)
+    return _of_radiance(image, image.film_state) if film == RADIANCE else None
+
+
+def net_of(nets: Moments, scrambles: int) -> NDArray[np.float32]:
+    """The means of scrambles and their samples, (R, H, W, 4), from the moments of NETS."""
+    net = np.concatenate([nets.mean, nets.samples], axis=-1).astype(np.float32)
+    return net.reshape(scrambles, -1, *net.shape[1:])
+
+
+def _of_nets(state: FilmState) -> Moments | None:
+    """Moments of the scrambles of nets, which go on from part to part."""
+    if not len(state.net):
+        return None
+    rows = state.net.reshape(-1, *state.net.shape[2:]).astype(np.float64)
+    return Moments(rows[..., 3:], rows[..., :3], NOTHING, NOTHING, NOTHING, NOTHING)
 
 
 def _of_radiance(image: Image, state: FilmState) -> Moments:

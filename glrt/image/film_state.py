@@ -11,6 +11,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from glrt.image import net_channels
+from glrt.image.net_channels import NO_NET
+
 Array = NDArray[np.float32]
 Channels = dict[str, NDArray[Any]]
 
@@ -26,20 +29,24 @@ class FilmState(NamedTuple):
     observations: Array  # complete ones
     part: Array  # (H, W, 3): mean of the finite samples of the incomplete observation
     begun: Array  # number of those samples
+    net: Array = NO_NET  # (scrambles, H, W, 4): mean and finite samples, by scrambles
 
 
-def empty_state(height: int, width: int) -> FilmState:
+def empty_state(height: int, width: int, scrambles: int = 0) -> FilmState:
     """A state of zeros, which takes no memory until it is written."""
     pixels, colors = (height, width), (height, width, 3)
     shapes = colors, pixels, pixels, colors, pixels
-    return FilmState(*(np.zeros(shape, np.float32) for shape in shapes))
+    net = np.zeros((scrambles, height, width, 4), np.float32) if scrambles else NO_NET
+    return FilmState(*(np.zeros(shape, np.float32) for shape in shapes))._replace(net=net)
 
 
 def keep(film: FilmState, rows: slice, part: FilmState) -> None:
     """Copy `part` to some rows; arrays of zeros are skipped, so that rare values take no memory."""
-    for array, band in zip(film, part, strict=True):
+    for array, band in zip(film[:-1], part[:-1], strict=True):
         if band.any():
             array[rows] = band
+    if len(film.net):
+        film.net[:, rows] = part.net
 
 
 def error_of_mean(
@@ -65,40 +72,54 @@ def to_channels(film: FilmState, stderr: Array, samples: int, block: int) -> Cha
 
     Arrays are (H, W, 3) and (H, W), in float32 and uint32.
     """
-    is_whole = samples % block == 0
+    is_net = len(film.net) > 0
+    is_whole, observations = is_net or samples % block == 0, _complete(samples, block, is_net)
     folded = np.empty(stderr.shape, np.int32)
     for row, kept in enumerate(folded):
         near = _variance(stderr[row], film.observations[row], is_whole)
         units = film.variance[row].view(np.int32) - near.view(np.int32)
         kept[:] = (units << 1) ^ (units >> 31)  # 0, -1, 1, -2 as 0, 1, 2, 3: most bits are 0
     channels: Channels = {VARIANCE: folded.view(np.uint32)}
-    counts = {DROPPED: film.dropped, MISSING: samples // block - film.observations}
+    counts = {DROPPED: film.dropped, MISSING: observations - film.observations}
     channels |= {name: c.astype(np.uint32) for name, c in counts.items() if c.any()}
+    channels |= net_channels.to_channels(film.net, samples)
     return channels if is_whole else channels | {PART: film.part, BEGUN: film.begun}
 
 
 def from_channels(
-    channels: Mapping[str, NDArray[Any]], stderr: Array, samples: int, block: int
+    channels: Mapping[str, NDArray[Any]],
+    stderr: Array,
+    samples: int,
+    block: int,
+    scrambles: int = 0,
 ) -> FilmState | None:
     """Read what `to_channels` has written; None if a channel is missing or has another size.
 
-    `channels` are planes (H, W), such as `film.variance.R` and `film.dropped`.
+    `channels` are planes (H, W), such as `film.variance.R` and `film.dropped`. Where samples fill
+    nets, there are so many `scrambles`.
     """
-    size, is_whole = stderr.shape[:2], samples % block == 0
+    size, is_net = stderr.shape[:2], scrambles > 0
+    is_whole = is_net or samples % block == 0
     planes = {name: plane for name, plane in channels.items() if plane.shape == size}
     none = np.zeros(size, np.float32)
     dropped, missing = (planes.get(name, none).astype(np.float32) for name in (DROPPED, MISSING))
-    observations = np.float32(samples // block) - missing
+    observations = np.float32(_complete(samples, block, is_net)) - missing
     folded, part = _stacked(planes, VARIANCE), _stacked(planes, PART)
     begun = planes.get(BEGUN)
     if is_whole:
         part, begun = np.zeros_like(stderr), none
-    if folded is None or folded.dtype != np.uint32 or part is None or begun is None:
+    net = net_channels.from_channels(planes, size, samples, scrambles)
+    if folded is None or folded.dtype != np.uint32 or part is None or begun is None or net is None:
         return None
     units = (folded >> 1).view(np.int32) ^ -(folded & 1).view(np.int32)
     near = _variance(stderr, observations, is_whole).view(np.int32)
     variance = (near + units).view(np.float32)
-    return FilmState(variance, dropped, observations, part, begun)
+    return FilmState(variance, dropped, observations, part, begun, net)
+
+
+def _complete(samples: int, block: int, is_net: bool) -> int:
+    """Complete observations of a pixel without dropped samples; `block` nets are as many."""
+    return min(samples, block) if is_net else samples // block
 
 
 def _variance(stderr: Array, observations: Array, is_whole: bool) -> Array:

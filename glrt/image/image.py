@@ -145,7 +145,10 @@ class Image:
         recipe = _parsed(header.get(RECIPE_KEY), path)
         if recipe is None:
             return cls(radiance, stderr, 0)
-        film = from_channels(channels, stderr, recipe.samples, recipe.settings.block)
+        settings = recipe.settings
+        film = from_channels(
+            channels, stderr, recipe.samples, settings.block, scrambles=settings.scrambles
+        )
         found = aovs.from_channels(channels, recipe.settings.aov)
         two = particle_film.from_channels(channels, radiance.shape[:2])
         shown = denoised_channels.from_channels(header, channels, radiance.shape[:2])

@@ -8,6 +8,7 @@ import numpy as np
 
 from glrt.core.errors import UsageError
 from glrt.core.text import counted
+from glrt.image import net_channels
 from glrt.image.aovs import AovImage
 from glrt.image.differences import (
     Pair,
@@ -16,7 +17,7 @@ from glrt.image.differences import (
     differing_settings,
     first_of,
 )
-from glrt.image.film_moments import NOTHING, PARTICLES, RADIANCE, moments_of
+from glrt.image.film_moments import NETS, NOTHING, PARTICLES, RADIANCE, moments_of, net_of
 from glrt.image.film_state import FilmState, error_of_mean
 from glrt.image.image import Image
 from glrt.image.moments import Moments, merged
@@ -65,7 +66,8 @@ def merged_image(
         return merged([partial(film_of, film, name) for name in order])[film]
 
     recipe = _recipe_of([parts[name] for name in order])
-    image = _image(whole(RADIANCE), recipe)
+    nets = whole(NETS) if recipe.settings.scrambles else None
+    image = _image(whole(RADIANCE), recipe, nets)
     if recipe.settings.caustics == "on":
         image = _with_particles(image, whole(PARTICLES), recipe)
     objects = _objects_of(order[0], load(order[0])) if "object" in aovs else AovImage(NOTHING)
@@ -173,7 +175,12 @@ def _with_particles(image: Image, moments: Moments, recipe: Recipe) -> Image:
     return replace(image, radiance=radiance, stderr=stderr, particles=film)
 
 
-def _image(film: Moments, recipe: Recipe) -> Image:
+def _image(film: Moments, recipe: Recipe, nets: Moments | None = None) -> Image:
+    """The picture of a film; with nets, their scrambles are its observations."""
+    net = net_of(nets, recipe.settings.scrambles) if nets else net_channels.NO_NET
+    if nets:
+        squares, held = net_channels.judged(net)
+        film = film._replace(variance=squares, observations=held[..., None])
     shape = film.mean.shape
     wide = film.mean, film.variance, np.broadcast_to(film.part, shape)
     mean, variance, part = (x.astype(np.float32) for x in wide)
@@ -183,7 +190,7 @@ def _image(film: Moments, recipe: Recipe) -> Image:
     )
     share = np.asarray(begun / np.maximum(count, 1), np.float32)
     stderr = error_of_mean(mean, variance, observations, part, share)
-    state = FilmState(variance, recipe.samples - count, observations, part, begun)
+    state = FilmState(variance, recipe.samples - count, observations, part, begun, net)
     return Image(mean, stderr, recipe.samples, recipe, state)
 
 

@@ -33,6 +33,7 @@ class Way(StrEnum):
     LAYERS = "light by layers"
     FRAGMENT = "the fragment pipeline"
     INDEPENDENT = "the independent sampler"
+    NET = "--sampler net"
     CLASSIC = "a classic lighting model"
     PROBES = "a method with probes"
     REUSE = "reuse of points"
@@ -56,6 +57,7 @@ MEANINGS: dict[Way, str] = {
     Way.LAYERS: "a picture relit in the window, and the window's film",
     Way.FRAGMENT: "`--pipeline fragment`, for OpenGL 4.1",
     Way.INDEPENDENT: "`--sampler independent`",
+    Way.NET: "`--sampler net`: nets over all samples of a pixel",
     Way.CLASSIC: "`--method phong`, `blinn`, `whitted`, `whitted_tree`, `cook`",
     Way.PROBES: "`--method ddgi`, `gather`, `resampled`: indirect light from probes",
     Way.REUSE: "`--method resampled`, unless `--reuse none`: points that other samples have kept",
@@ -84,9 +86,10 @@ _WORKS: dict[Way, tuple[Way, ...]] = {
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.FRAGMENT),
         Way.TERMS,
     ),
+    Way.NET: (Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.LAYERS),
     Way.CLASSIC: (
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.FRAGMENT),
-        *(Way.TERMS, Way.INDEPENDENT),
+        *(Way.TERMS, Way.INDEPENDENT, Way.NET),
     ),
     Way.PROBES: (Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.TERMS),
     Way.REUSE: (Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.PROBES),
@@ -96,7 +99,7 @@ _WORKS: dict[Way, tuple[Way, ...]] = {
     ),
     Way.MARCH: (
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.FRAGMENT),
-        *(Way.TERMS, Way.INDEPENDENT),
+        *(Way.TERMS, Way.INDEPENDENT, Way.NET),
     ),
     Way.PARTICLES: (
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.INDEPENDENT),
@@ -104,7 +107,7 @@ _WORKS: dict[Way, tuple[Way, ...]] = {
     Way.PILOT: (
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.FRAGMENT),
         *(Way.TERMS, Way.INDEPENDENT, Way.CLASSIC, Way.PROBES, Way.REUSE, Way.HYBRID),
-        Way.MARCH,
+        *(Way.MARCH, Way.NET),
     ),
     Way.DENOISE: (
         *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
@@ -115,17 +118,24 @@ _WORKS: dict[Way, tuple[Way, ...]] = {
     Way.TIME: (
         *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
         *(Way.CLASSIC, Way.PROBES, Way.REUSE, Way.PARTICLES, Way.PILOT, Way.DENOISE, Way.AUTO),
-        *(Way.TERMS, Way.HYBRID, Way.MARCH),
+        *(Way.TERMS, Way.HYBRID, Way.MARCH, Way.NET),
     ),
     Way.ERROR: (
         *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
         *(Way.CLASSIC, Way.PROBES, Way.REUSE, Way.PARTICLES, Way.PILOT, Way.DENOISE, Way.AUTO),
-        *(Way.TERMS, Way.TIME, Way.HYBRID, Way.MARCH),
+        *(Way.TERMS, Way.TIME, Way.HYBRID, Way.MARCH, Way.NET),
     ),
 }
 
 _LENGTH = "which samples a part has follows from their number in all: give --samples"
+_BLOCKS = "it goes by blocks of samples, which a net lacks: use --sampler sobol"
 _REFUSED: dict[frozenset[Way], str] = {
+    frozenset({Way.AOV, Way.NET}): _BLOCKS,
+    frozenset({Way.TERMS, Way.NET}): _BLOCKS,
+    frozenset({Way.FRAGMENT, Way.NET}): "a fragment shader writes to too few textures for a net",
+    frozenset({Way.INDEPENDENT, Way.NET}): "each is a sampler",
+    **{frozenset({Way.NET, way}): _BLOCKS for way in (Way.PROBES, Way.REUSE, Way.HYBRID, Way.AUTO)},
+    **{frozenset({Way.NET, way}): _BLOCKS for way in (Way.PARTICLES, Way.DENOISE)},
     frozenset({Way.MERGED, Way.RESUME}): "a plain render adds its samples in another order",
     frozenset({Way.LAYERS, Way.RESUME}): "the picture lacks the layers that it was summed from",
     frozenset({Way.LAYERS, Way.PART}): "a part holds the sum alone: save the scene and render that",
@@ -239,6 +249,7 @@ def ways_of(settings: Settings, layering: Layering = "none") -> set[Way]:
         Way.TERMS: bool(settings.terms),
         Way.LAYERS: layering != "none" and not settings.terms,  # a plan with terms is not relit
         Way.INDEPENDENT: settings.sampler == "independent",
+        Way.NET: settings.sampler == "net",
         Way.CLASSIC: METHODS[settings.method].model != 0,
         Way.PROBES: traits_of(settings).has_probes,
         Way.REUSE: reuses_points(settings),

@@ -257,7 +257,8 @@ class Needs:
         "roulette",
         reasons.roulette,
     )
-    block: int = _row(  # samples in an observation: 16 or 64 of Sobol's points, 1 of random numbers
+    has_net: bool = _row(lambda it: it.settings.scrambles > 0, most=False)  # nets that keep growing
+    block: int = _row(  # samples of a block: 16 or 64 of Sobol's points, 1 of random numbers
         lambda it: it.settings.block,
         "Sobol points",
         reasons.sampler,

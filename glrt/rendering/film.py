@@ -11,11 +11,14 @@ from glrt.gpu.glsl import read
 from glrt.gpu.program import Resource
 from glrt.gpu.structs import read_constants
 from glrt.image.film_state import FilmState, error_of_mean
+from glrt.image.net_channels import NO_NET
 from glrt.rendering.pass_film import Array, PassFilm, Size
 from glrt.rendering.pipelines import RESERVOIRS
+from glrt.settings import Settings
 
 BAND_PIXELS = 1 << 17  # pixels read at a time: 2 MiB of a texture
 _RESERVOIRS = read_constants(read("probes/reservoir.glsl"))
+NET_COLUMNS = read_constants(read("film/net.glsl"))["NET_COLUMNS"]  # scrambles side by side
 COLUMNS, ROWS = (_RESERVOIRS[f"{name}_OF_RESERVOIR"] for name in ("COLUMNS", "ROWS"))  # texels
 
 
@@ -27,6 +30,12 @@ class Extent(NamedTuple):
     block: int = 1  # samples per observation
     layers: int = 0
     reservoirs: bool = False  # whether samples keep light points for later ones
+    scrambles: int = 0  # independent nets that the samples fill
+
+    @classmethod
+    def of(cls, settings: Settings, layers: int, reservoirs: bool) -> "Extent":
+        """The extent of a film for settings."""
+        return cls(*settings.size, settings.block, layers, reservoirs, settings.scrambles)
 
 
 class Exposure(NamedTuple):
@@ -39,17 +48,20 @@ class Exposure(NamedTuple):
     part: Array  # mean of the samples after the last complete observation
     share: Array  # (H, W): fraction of the finite samples that is in `part`
     layers: Array  # (2, layers, H, W, 4): radiance and samples, by halves of observations
+    net: Array = NO_NET  # (scrambles, H, W, 4): radiance and samples, by scrambles
 
     def state(self, samples: int) -> FilmState:
         """The film state, without mean and layers; each pixel has `samples`."""
         begun = np.rint(self.share * (samples - self.dropped))
-        return FilmState(self.variance, self.dropped, self.observations, self.part, begun)
+        parts = self.variance, self.dropped, self.observations, self.part, begun
+        return FilmState(*parts, self.net if len(self.net) else NO_NET)
 
 
 class Film(PassFilm):
     """Pairs of RGBA32F textures for mean and variance: a dispatch reads one, writes the other.
 
-    If an observation takes more than one sample, another pair holds the incomplete observation.
+    If an observation takes more than one sample, another pair holds the incomplete observation, or
+    the means of all scrambles of a net.
     Layers of light have a pair, with separate sums for two halves of the observations. Reservoirs
     have a pair too (shaders_glsl/probes/reservoir.glsl).
     """
@@ -98,7 +110,8 @@ class Film(PassFilm):
         begun = self._read_begun(mean[..., 3], first, end)
         dropped = np.float32(self.samples) - mean[..., 3]
         parts = mean[..., :3], variance[..., :3], dropped, variance[..., 3], *begun
-        copies = (part.copy() for part in (*parts, self._read_layers(first, end)))
+        kept = self._read_layers(first, end), self._read_net(first, end)
+        copies = (part.copy() for part in (*parts, *kept))
         return Exposure(*copies)
 
     def dropped(self) -> int:
@@ -126,6 +139,8 @@ class Film(PassFilm):
             "variance": np.dstack([film_state.variance, film_state.observations]),
             "block": np.dstack([film_state.part, film_state.begun]),
         }
+        if len(film_state.net):
+            rows["block"] = _tiled(film_state.net)
         for name in self.sources.keys() & rows:
             self.sources[name].write(np.ascontiguousarray(rows[name], np.float32))
         self.samples = samples
@@ -136,24 +151,40 @@ class Film(PassFilm):
 
     def _read_begun(self, finite: Array, first: int, end: int) -> tuple[Array, Array]:
         """Mean of the incomplete observation, and its share of the `finite` samples per pixel."""
-        if self.samples % self.extent.block == 0:
+        if self.extent.scrambles or self.samples % self.extent.block == 0:
             return np.zeros((*finite.shape, 3), np.float32), np.zeros_like(finite)
         begun = self.read_output("block", first, end)
         return begun[..., :3], np.asarray(begun[..., 3] / np.maximum(finite, 1), np.float32)
 
+    def _read_net(self, first: int, end: int) -> Array:
+        """The means of scrambles, `_tiled` turned round."""
+        (width, height), count = self.size, self.extent.scrambles
+        tops = range(0, count // NET_COLUMNS * height, height)
+        found = [self.read_output("block", up + first, up + end) for up in tops]
+        wide = np.array(found, np.float32).reshape(len(tops), end - first, NET_COLUMNS, width, 4)
+        return wide.swapaxes(1, 2).reshape(count, end - first, width, 4)
+
     def _read_layers(self, first: int, end: int) -> Array:
-        width, height, _, count, _ = self.extent
+        (width, height), count = self.size, self.extent.layers
         if not self.layers:
             return np.zeros((2, 0, end - first, width, 4), np.float32)
         halves = [self.read_output("layers", up + first, up + end) for up in (0, height)]
         return np.stack(halves).reshape(2, end - first, count, width, 4).swapaxes(1, 2)
 
 
+def _tiled(net: Array) -> Array:
+    """The means of scrambles as their texture holds them, NET_COLUMNS side by side."""
+    count, height, width, _ = net.shape
+    rows = net.reshape(count // NET_COLUMNS, NET_COLUMNS, height, width, 4).swapaxes(1, 2)
+    return np.ascontiguousarray(rows).reshape(-1, NET_COLUMNS * width, 4)
+
+
 def _outputs(extent: Extent) -> dict[str, Size]:
     """The textures of a film and their sizes."""
-    width, height, block, layers, has_reservoirs = extent
+    width, height, block, layers, has_reservoirs, scrambles = extent
     sizes = dict.fromkeys(("mean", "variance"), (width, height))
-    sizes |= {"block": (width, height)} if block > 1 else {}
+    columns, rows = (NET_COLUMNS, scrambles // NET_COLUMNS) if scrambles else (1, 1)
+    sizes |= {"block": (columns * width, rows * height)} if block > 1 else {}
     sizes |= {"reservoirs": (COLUMNS * width, ROWS * height)} if has_reservoirs else {}
     return sizes | ({"layers": (layers * width, 2 * height)} if layers else {})
 

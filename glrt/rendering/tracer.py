@@ -62,7 +62,7 @@ class Tracer:
             scene = DeviceScene(context, plan, options, earlier)
             self.device_scene: DeviceScene = scene
             refused.callback(scene.release)
-            extent = Extent(*settings.size, settings.block, plan.layers, scene.keeps_reservoirs)
+            extent = Extent.of(settings, plan.layers, scene.keeps_reservoirs)
             probes = before.probes if before and scene.has_kernel_of(before.device_scene) else None
             self.probes: ProbeSupply = ProbeSupply(context, plan, scene, probes, hysteresis)
             refused.callback(self.probes.release, probes)

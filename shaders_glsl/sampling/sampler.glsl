@@ -4,14 +4,15 @@
 //
 // The numbers are independent or, where BLOCK is above 1, points of a net of BLOCK points (16:
 // sampling/sobol.glsl, 64: sampling/sobol64.glsl). Each block of BLOCK samples has its own scramble.
+// Where HAS_NET, samples are dealt out in turn to BLOCK nets that keep growing (sampling/net.glsl).
 
 const uint STEP = 0x9E3779B9u;  // from one dimension to the next
 
 struct Sampler {
     uint seed;
     uint dimension;
-    uint block;  // seed of the block
-    uint point;  // number of the sample in the block
+    uint block;  // seed of the block, or of the net
+    uint point;  // number of the sample in it
 };
 
 // Pixel, sample and seed are hashed together: `hash(pixel) + sample` would give neighbours
@@ -28,7 +29,11 @@ Sampler make_sampler(uint seed) {
 // The sampler of the sample `index`, from 0, of a pixel.
 Sampler sampler_at(ivec2 pixel, int index, uint seed) {
     Sampler rng = make_sampler(pixel_seed(pixel, index, seed));
-    if (BLOCK > 1) {
+    if (HAS_NET) {
+        int number = index / BLOCK;  // a net that is full is followed by another
+        rng.block = pixel_seed(pixel, index % BLOCK + number / NET_POINTS * BLOCK, ~seed);
+        rng.point = uint(number % NET_POINTS);
+    } else if (BLOCK > 1) {
         rng.block = pixel_seed(pixel, index / BLOCK, ~seed);  // differs from the seeds of all samples
         rng.point = uint(index % BLOCK);
     }
@@ -57,11 +62,19 @@ vec2 next_of_64(Sampler self, uint first, bool last) {
     return sobol_place_64(cell, pcg_hash(self.seed ^ self.dimension));
 }
 
+// The same for nets.
+vec2 next_of_net(Sampler self, uint first, bool last) {
+    uint index = net_order(self.point, pcg_hash(self.block ^ first));
+    uint x = pcg_hash(~self.block ^ self.dimension);
+    return net_place(net_point(index, last), uvec2(x, pcg_hash(x)));
+}
+
 // Two successive draws share one shuffled point of four dimensions.
 vec2 next_sobol(inout Sampler self) {
     self.dimension += STEP;
     bool last = (self.dimension & 1u) == 0u;  // STEP is odd: true for every second draw
     uint first = last ? self.dimension - STEP : self.dimension;
+    if (HAS_NET) return next_of_net(self, first, last);
     if (BLOCK > 16) return next_of_64(self, first, last);
     uint index = owen_scramble(self.point, pcg_hash(self.block ^ first));
     uvec2 cell = sobol_cell(index, last, pcg_hash(~self.block ^ self.dimension));

@@ -67,7 +67,7 @@ REFUSED = [pair for pair in pairs() if not works(*pair)]
     "*--caustics*", "a merged picture-*", "*terms of light*", "*hybrid*", "*method march*"
 )
 @pytest.mark.slow_cases(
-    "light by layers---*", "a classic lighting model---*", "the independent*---*"
+    "light by layers---*", "a classic lighting model---*", "the independent*---*", "--sampler net-*"
 )
 @pytest.mark.parametrize(
     ("one", "other"),
@@ -99,6 +99,7 @@ NEVER_ASKED = [  # no command line does
     *({Way.HYBRID, other} for other in (Way.AUTO, Way.CLASSIC, Way.REUSE)),
     *({Way.MARCH, it} for it in (Way.AUTO, Way.CLASSIC, Way.PROBES, Way.REUSE, Way.HYBRID)),
     {Way.PARTICLES, Way.PILOT},
+    {Way.INDEPENDENT, Way.NET},
 ]
 
 
