@@ -31,6 +31,7 @@ class PassFilm:
         try:
             for pair in self._pairs:
                 for name, size in sizes.items():
+                    self._check(size)
                     pair[name] = self._texture(size)
         except RenderError:
             self.release()
@@ -77,6 +78,15 @@ class PassFilm:
         for pair in self._pairs:
             for texture in pair.values():
                 texture.release()
+
+    def _check(self, size: Size) -> None:
+        """Raise RenderError for a texture with edges that the driver does not allow."""
+        most = int(self._gl.info["GL_MAX_TEXTURE_SIZE"])
+        if max(size) > most:
+            raise RenderError(
+                f"{self._what} takes a texture of {size[0]:,} x {size[1]:,} texels, and this "
+                f"driver allows {most:,} along an edge. Render it piece by piece with --crop."
+            )
 
     def _texture(self, size: Size) -> moderngl.Texture:
         with ExitStack() as refused:
