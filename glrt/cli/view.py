@@ -32,20 +32,27 @@ EPILOG = (
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the command to its parser."""
     parser.add_argument(
-        "scene", metavar="SCENE", nargs="?", default="cornell", help=f"{SCENE}; default: cornell"
+        "scene",
+        metavar="SCENE",
+        nargs="?",
+        help=f"{SCENE}; without one, the window shows scenes and recent files to choose from",
     )
     add_settings(parser)
     add_pipeline(parser)
     add_files(parser)
 
 
+FIRST = "cornell"  # the scene that settings without a scene are for
 EXTRA = ("imgui_bundle", "glfw")  # modules that `pip install 'glrt[view]'` installs
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Show the window until it is closed; ContextError (exit code 3) if none can be opened."""
-    scene, recipe = load_recipe(arguments.scene, file_rules(arguments))
-    settings = settings_for(recipe or scene.render, **settings_given(arguments))
+    given = settings_given(arguments)
+    is_for_one = bool(given or arguments.lights)  # then a window without a scene shows FIRST
+    source = arguments.scene or (FIRST if is_for_one else "")
+    scene, recipe = load_recipe(source or FIRST, file_rules(arguments))
+    settings = settings_for(recipe or scene.render, **given)
     settings = with_filter(settings)
     scene = with_lights(scene, dict(arguments.lights))
     try:
@@ -64,4 +71,4 @@ def run(arguments: argparse.Namespace) -> int:
             "`glrt render` renders without a window."
         ) from None
     rules = file_rules(arguments)
-    return Window(arguments.scene, scene, settings, arguments.pipeline, rules).run()
+    return Window(source, scene, settings, arguments.pipeline, rules).run()

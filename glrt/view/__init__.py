@@ -22,6 +22,7 @@ Modules, each importing only what stands above it:
 - app: state shared by the parts of the window
 - outliner: a list of what the scene holds
 - panels: the panels
+- start: the screen that is shown without a scene
 - bars: bars above and below the picture
 - palette: a box that finds controls and commands
 - window: main loop and shutdown

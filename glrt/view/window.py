@@ -36,6 +36,8 @@ from glrt.view.recovery.headers import recovery_folder
 from glrt.view.recovery.keeper import Recovery
 from glrt.view.recovery.lost_display import handle_lost_display
 from glrt.view.recovery.question import draw_recovery
+from glrt.view.start.screen import StartScreen
+from glrt.view.start.thumbnails import Thumbnails
 from glrt.view.state.denoised_picture import DenoisedPicture
 from glrt.view.state.frame_budget import FrameBudget
 from glrt.view.state.idle_kernel import IdleKernel
@@ -71,6 +73,7 @@ class Window:
     ) -> None:
         """Prepare the window, which `run` opens; ContextError without display or OpenGL 4.1.
 
+        Without a source it begins with the start screen, and `scene` is not shown.
         `pipeline` is compute, which needs OpenGL 4.3, or fragment; by default the first that works.
         `rules` hold for the files of the scene, also when it is read again.
         """
@@ -132,9 +135,15 @@ class Window:
         docking.dockable_windows = [
             _part(PARTS[0], "Side", lambda: draw_panel(self.app)),
             _part(PARTS[1], "Below", lambda: draw_figures(self.app)),
-            _part(PARTS[2], "MainDockSpace", lambda: draw_picture(self.app)),
+            _part(PARTS[2], "MainDockSpace", self._draw_picture),
         ]
         return docking
+
+    def _draw_picture(self) -> None:
+        if self.app.shows_start:
+            self._start.draw(self.app)
+        else:
+            draw_picture(self.app)
 
     def _open(self) -> None:
         """Create the state of the window, once its OpenGL context is current."""
@@ -154,7 +163,9 @@ class Window:
             pivot=scene.camera.look_at,
             shaders=Watch(shader_files()),
             rules=self._rules,
+            shows_start=not source,
         )
+        self._start = StartScreen(Thumbnails(context.gl))
         self.app.messages.complain(problem)
         self.app.leave = self._leave
         self._native = Native(self.app.files.drop)
@@ -174,10 +185,10 @@ class Window:
         draw_keys(app)
         app.has_list_keys = False  # the list takes them again, if it is drawn
         for part in self.params.docking_params.dockable_windows[:2]:
-            part.is_visible = not app.is_picture_alone
+            part.is_visible = not (app.is_picture_alone or app.shows_start)
         self._shares.keep(PARTS)
         self._style.choose(app.preferences.theme, app.preferences.scale)
-        self._native.entitle(app.files.title)
+        self._native.entitle("glrt" if app.shows_start else app.files.title)
         app.advance()
         app.look(now)
         self._poll(now)
@@ -198,6 +209,7 @@ class Window:
         self._poll(now)
         is_done = self.app.show.is_done(self.app.session) and self.app.pair.is_done
         is_done = is_done and not self.app.paths.is_waiting
+        is_done |= self.app.shows_start
         return is_done and not self._interruption.signal and self._reports(now) == self._told
 
     def _reports(self, now: float) -> tuple[object, ...]:
@@ -214,7 +226,8 @@ class Window:
 
     def _ask(self) -> None:
         """Draw the popups above the panels: tour, questions and file dialog."""
-        draw_tour(self.app)
+        if not self.app.shows_start:
+            draw_tour(self.app)
         draw_key_overlay(self.app)
         self._palette.draw(self.app)
         draw_recovery(self.recovery)
@@ -239,6 +252,7 @@ class Window:
         self.app.keep_preferences()
         self.app.pair.go_on(False)
         self.app.show.release()
+        self._start.release()
         self.app.paths.release()
         self.app.silhouette.release()
         self.app.files.dialogs.close()

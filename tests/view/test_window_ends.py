@@ -83,6 +83,15 @@ def test_a_window_ends_at_any_moment(display: str, tmp_path: Path, moment: str, 
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("moment", ["starting", "leaving_the_start"])
+def test_a_window_without_a_scene_lets_one_be_chosen(
+    display: str, tmp_path: Path, moment: str
+) -> None:
+    done = ended_at(moment, display, tmp_path)
+    assert (done.returncode, done.stderr) == (143, "")
+
+
+@pytest.mark.slow
 def test_the_edits_of_a_killed_window_are_restored_in_the_next(
     display: str, tmp_path: Path
 ) -> None:
