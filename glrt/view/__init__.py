@@ -15,6 +15,9 @@ Modules, each importing only what stands above it:
 - viewport: the picture, picking, and moves of the camera
 - compared_picture: picture A, rendered next to B
 - messages: messages and questions
+- scene_compiler: another process that compiles the kernel of a scene
+- opening: a large scene that a thread reads
+- file_places: places of files
 - files: open and saved files
 - recovery: unsaved edits kept for the next start
 - camera_moves: the camera moved by mouse and keys

@@ -154,9 +154,11 @@ class App(Selection):
         self.shows_palette = not self.shows_palette
 
     def escape(self) -> None:
-        """Close what lies over the window or in place of the picture, else leave the paths."""
+        """Close what lies over the window, give up a scene that is read, or leave the paths."""
         if self.shows_keys:
             self.shows_keys = False
+        elif self.files.aside.opening:
+            self.files.aside.end()
         elif self.shows_start:
             self.toggle_start()
         else:

@@ -35,11 +35,13 @@ class StartScreen:
             self._behind = app.session.state
         if self._behind is not app.session.state:
             app.shows_start = False
-            return
+            return None
         if app.session.problem:
             imgui.push_style_color(imgui.Col_.text, _PROBLEM)
             imgui.text_wrapped(app.session.problem)
             imgui.pop_style_color()
+        if app.files.aside.opening:
+            return _stage(app.files.aside.text, app.files.aside.opening.share)
         width, em = imgui.get_content_region_avail().x, hello_imgui.em_size()
         is_wide = width > _BESIDE * em and bool(app.files.recent)
         imgui.begin_child("files", ImVec2(_LIST * em, 0) if is_wide else ImVec2(0, _height(app)))
@@ -50,6 +52,7 @@ class StartScreen:
         imgui.begin_child(NAME)
         self._scenes(app)
         imgui.end_child()
+        return None
 
     def _scenes(self, app: App) -> None:
         """Draw the pictures of the scenes in rows, each with its name."""
@@ -76,6 +79,17 @@ class StartScreen:
     def release(self) -> None:
         """Release the pictures."""
         self._thumbnails.release()
+
+
+def _stage(text: str, share: float) -> None:
+    """Draw how far a scene is that a thread reads, in the middle."""
+    room, width = imgui.get_content_region_avail(), hello_imgui.em_size(_LIST)
+    imgui.set_cursor_pos(ImVec2((room.x - width) / 2, room.y / 2))
+    imgui.begin_group()
+    imgui.text(text)
+    imgui.progress_bar(share, ImVec2(width, 0.0), "")
+    imgui.text_disabled("Escape cancels")
+    imgui.end_group()
 
 
 def _height(app: App) -> float:
