@@ -35,6 +35,7 @@ Programs, `python -m bench.NAME`; `--help` lists their options:
 - redraw: how much clearer the picture is while the camera moves
 - upsampling: upsampled against enlarged coarse pictures at equal work
 - gallery: every scene that comes with glrt, as pictures and a page of them
+- thumbnails: every scene that comes with glrt, in one small picture for the window
 - weekend: writes scenes/weekend.toml
 
 They share:

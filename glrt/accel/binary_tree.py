@@ -1,12 +1,15 @@
 """A binary tree over axis-aligned boxes, one in each leaf, built level by level in numpy."""
 
+import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 
 from glrt.accel.binned_splits import Floats, Ints, are_right, halved
+from glrt.core.stages import report
 
+USUAL_DEPTH = 1.15  # mean depth of a leaf, over that in a tree whose leaves have all one depth
 PORTION = 1 << 16  # boxes that are divided at once: they fit into a cache, and memory is bounded
 
 
@@ -40,8 +43,11 @@ def build(lower: Floats, upper: Floats, halves: bool = False) -> BinaryTree:
     total = 2 * len(lower) - 1
     left, item = np.full(total, -1), np.full(total, -1)
     level = _Level(np.zeros(1, int), np.array([len(lower)]), np.arange(len(lower)))
-    levels, used = [], 1
+    levels, used, done = [], 1, 0
+    work = USUAL_DEPTH * len(lower) * max(math.log2(len(lower)), 1.0)
     while len(level.node):
+        report("tree", min(done / work, 1.0))
+        done += len(level.items)
         levels.append(level.node)
         is_leaf = level.size == 1
         item[level.node[is_leaf]] = level.items[level.start[is_leaf]]

@@ -12,11 +12,12 @@ from glrt.cli.options import (
 )
 from glrt.core.errors import ContextError, UsageError
 from glrt.denoise.filters import with_filter
-from glrt.image.sources import load_recipe
+from glrt.image.sources import STRICT, load_recipe
 from glrt.process.early import leave_at_once
 from glrt.process.signals import handled
-from glrt.scene.scene import with_lights
-from glrt.settings import settings_for
+from glrt.scene.scene import Scene, with_lights
+from glrt.settings import RenderSettings, Settings, settings_for
+from glrt.view.opening import Later, is_large
 
 DESCRIPTION = (
     "Show a scene in a window and change all its settings live. Closing the window saves only its "
@@ -32,22 +33,37 @@ EPILOG = (
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the command to its parser."""
     parser.add_argument(
-        "scene", metavar="SCENE", nargs="?", default="cornell", help=f"{SCENE}; default: cornell"
+        "scene",
+        metavar="SCENE",
+        nargs="?",
+        help=f"{SCENE}; without one, the window shows scenes and recent files to choose from",
     )
     add_settings(parser)
     add_pipeline(parser)
     add_files(parser)
 
 
+FIRST = "cornell"  # the scene that settings without a scene are for
 EXTRA = ("imgui_bundle", "glfw")  # modules that `pip install 'glrt[view]'` installs
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Show the window until it is closed; ContextError (exit code 3) if none can be opened."""
-    scene, recipe = load_recipe(arguments.scene, file_rules(arguments))
-    settings = settings_for(recipe or scene.render, **settings_given(arguments))
-    settings = with_filter(settings)
-    scene = with_lights(scene, dict(arguments.lights))
+    given = settings_given(arguments)
+    is_for_one = bool(given or arguments.lights)  # then a window without a scene shows FIRST
+    source = arguments.scene or (FIRST if is_for_one else "")
+    rules, lights = file_rules(arguments), dict(arguments.lights)
+
+    def changed(scene: Scene, settings: RenderSettings) -> tuple[Scene, Settings]:
+        return with_lights(scene, lights), with_filter(settings_for(settings, **given))
+
+    later: Later | None = None
+    if source and "denoise" not in given and is_large(source):
+        later, source, rules = (source, rules, changed), "", STRICT
+    scene, recipe = load_recipe(source or FIRST, rules)
+    settings = settings_for(scene.render)
+    if not later:
+        scene, settings = changed(scene, recipe or scene.render)
     try:
         with handled(leave_at_once):
             from glrt.view.window import Window
@@ -63,5 +79,4 @@ def run(arguments: argparse.Namespace) -> int:
             f"no window can be opened: {error}. On Debian or Ubuntu install libgl1 and libx11-6. "
             "`glrt render` renders without a window."
         ) from None
-    rules = file_rules(arguments)
-    return Window(arguments.scene, scene, settings, arguments.pipeline, rules).run()
+    return Window(source, scene, settings, arguments.pipeline, rules, later).run()

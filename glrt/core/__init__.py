@@ -8,5 +8,6 @@ Modules, each importing only what stands above it:
 - resources: folders of shaders and scenes, and of the user
 - files: atomic writes: a file is complete or absent
 - web_page: pages that need no network
+- stages: stages of long work, reported to who waits for it
 - memo: cache of results by the identity of the arguments
 """

@@ -12,6 +12,7 @@ Modules, each importing only what stands above it:
 - triangles: triangles of meshes, in the frame of the BVH
 - instances: meshes with a BVH of their own, and their placements
 - scene_tree: the BVH over shapes, one packer of leaves for each kind
+- ready_tree: a BVH that was built before a renderer asks for it
 - drawn_triangles: the order in which triangles are drawn
 - lights: lamps as rows
 - texture_maps: textures of materials, and texture axes of shapes

@@ -18,8 +18,9 @@ from glrt.packing.drawn_triangles import drawn_triangles
 from glrt.packing.image_texture import ImageTexture
 from glrt.packing.kernel_structs import STRUCTS
 from glrt.packing.particles import with_particles
+from glrt.packing.ready_tree import ready_or_new
 from glrt.packing.scene_arrays import Dispatch, pack_frame, pack_scene
-from glrt.packing.scene_tree import SceneTree, tree_of
+from glrt.packing.scene_tree import SceneTree
 from glrt.packing.shapes import NUMBERED
 from glrt.packing.sky_table import SkyTable
 from glrt.packing.texel_texture import TexelTexture
@@ -274,7 +275,7 @@ def _tree(facts: SceneFacts, before: DeviceScene | None) -> SceneTree | None:
     """The tree of a scene: that of `before` if the objects are equal, else a new one."""
     if before and before._scene.objects == facts.scene.objects:
         return before._tree
-    return tree_of(facts, before._tree if before else None)
+    return ready_or_new(facts, before._tree if before else None)
 
 
 def _packed(facts: SceneFacts, tree: SceneTree | None, before: DeviceScene | None) -> Arrays:

@@ -16,6 +16,9 @@ Modules, each importing only what stands above it:
 - viewport: the picture, picking, and moves of the camera
 - compared_picture: picture A, rendered next to B
 - messages: messages and questions
+- scene_compiler: another process that compiles the kernel of a scene
+- opening: a large scene that a thread reads
+- file_places: places of files
 - files: open and saved files
 - recovery: unsaved edits kept for the next start
 - camera_moves: the camera moved by mouse and keys
@@ -23,6 +26,7 @@ Modules, each importing only what stands above it:
 - app: state shared by the parts of the window
 - outliner: a list of what the scene holds
 - panels: the panels
+- start: the screen that is shown without a scene
 - bars: bars above and below the picture
 - palette: a box that finds controls and commands
 - window: main loop and shutdown

@@ -32,6 +32,7 @@ from glrt.view.viewport.picture import Picture
 from glrt.view.viewport.picture_view import PictureView
 from glrt.view.viewport.silhouette import Silhouette
 
+FIRST = "cornell"  # the scene that a start without a scene may continue with
 MOST_STOPS = 8.0  # exposure values that keys reach, as the slider does
 
 
@@ -63,6 +64,7 @@ class App(Selection):
     is_picture_alone: bool = False  # whether the panels are hidden
     shows_keys: bool = False  # whether all keys are shown over the window
     shows_palette: bool = False  # whether words find controls and commands
+    shows_start: bool = False  # whether scenes to open are shown in place of the picture
     paths: PathExplorer = field(init=False)
     silhouette: Silhouette = field(init=False)  # of the selected mesh
     tour_step: int | None = 0  # step on the screen; None: closed until the next start
@@ -105,6 +107,9 @@ class App(Selection):
     def show_scene(self, scene: Scene) -> None:
         """Reset the pivot and the selection for a scene that was opened."""
         self.pivot, self.selected = scene.camera.look_at, None
+        if self.shows_start and not self.session.renderer:
+            self.session.history.forget()  # the scene before was never seen
+        self.shows_start = False
 
     def follow_files(self, now: float) -> None:
         """Reload the scene file or the shaders if another program has changed them."""
@@ -149,11 +154,22 @@ class App(Selection):
         self.shows_palette = not self.shows_palette
 
     def escape(self) -> None:
-        """Close what lies over the window, else leave the paths."""
+        """Close what lies over the window, give up a scene that is read, or leave the paths."""
         if self.shows_keys:
             self.shows_keys = False
+        elif self.files.aside.opening:
+            self.files.aside.end()
+        elif self.shows_start:
+            self.toggle_start()
         else:
             self.end_paths()
+
+    def toggle_start(self) -> None:
+        """Show scenes to open in place of the picture, or the scene that is open, else FIRST."""
+        if self.shows_start and not self.files.source:
+            self.files.open(FIRST)
+        else:
+            self.shows_start = not self.shows_start
 
     def choose_paths(self) -> None:
         """Let clicks choose a pixel for its paths, or let them select objects again."""
@@ -210,6 +226,8 @@ class App(Selection):
 
     def advance(self) -> None:
         """Do the work of a frame: apply edits, render samples, and draw them."""
+        if self.shows_start:
+            return
         try:
             count = self.preferences.samples_per_frame
             chosen = self.preferences

@@ -3,6 +3,7 @@
 import os
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 
 from imgui_bundle import imgui
@@ -23,8 +24,10 @@ from glrt.view.edits.file_camera import seen_as_before, to_be_saved
 from glrt.view.edits.sky_images import is_sky, with_sky_image
 from glrt.view.edits.unsaved import is_edited, is_other
 from glrt.view.file_dialogs import PICTURE, SCENE, SCENES, Dialogs
+from glrt.view.file_places import folder_of, where
 from glrt.view.file_watch import Watch, watch_for
 from glrt.view.messages import Messages, nothing
+from glrt.view.opening import Aside, is_large
 from glrt.view.state.recent import load_recent, save_recent, with_opened
 from glrt.view.state.session import Session
 
@@ -53,6 +56,7 @@ class Files:
     written: Scene = field(init=False)  # `saved` with its camera and settings
     recent: tuple[str, ...] = field(init=False)
     dialogs: Dialogs = field(default_factory=Dialogs)
+    aside: Aside = field(default_factory=Aside)  # what is read while this scene stays
 
     def __post_init__(self) -> None:
         """Load the recent files, and remember where the scene came from."""
@@ -81,13 +85,22 @@ class Files:
         return f"{escaped(name)}{' *' if self.is_other else ''} - glrt"
 
     def open(self, source: str) -> None:
-        """Open another scene, or the scene, view and settings of a picture."""
+        """Open a scene, or that of a picture with its view; a thread reads large ones."""
+        self.aside.end()
         with self.messages.reporting():
+            if is_large(source):
+                return self.aside.begin(source)
             scene, recipe = load_recipe(source)
-            self._take(scene, recipe or scene.render)
-            self.rules = STRICT  # the user trusted another scene
-            self._came_from(source)
-            self.messages.report(f"Opened {source}")
+            self._opened(source, scene, recipe or scene.render)
+        return None
+
+    def _opened(
+        self, source: str, scene: Scene, settings: RenderSettings, rules: FileRules = STRICT
+    ) -> None:
+        self._take(scene, settings)
+        self.rules = rules
+        self._came_from(source)
+        self.messages.report(f"Opened {source}")
 
     def ask_open(self, source: str) -> None:
         """Open a file; ask first if that would lose edits. An image of radiance is a background."""
@@ -103,7 +116,7 @@ class Files:
         self.messages.ask(
             f"Open {Path(path).name}?",
             "Add the model to this scene, or open it as a scene of its own?",
-            add=lambda: self.add_from(path),
+            add=partial(self.add, Path(path)),
             open=lambda: self.ask_open(path),
         )
         return None
@@ -114,10 +127,6 @@ class Files:
             self.session.edit(with_sky_image(self.session.scene, Path(path)))
             name = escaped(Path(path).name)
             self.messages.report(f"{name} is the background; undo brings the former one back")
-
-    def add_from(self, path: str) -> None:
-        """Add the meshes of a model to the scene."""
-        self.add(Path(path))
 
     def browse_open(self) -> None:
         """Show a dialog to choose a file to open."""
@@ -149,7 +158,7 @@ class Files:
         self.source, self.watch = source, watch_for(source)
         self.model = scene_file_of(source) if source else None
         self.scene_path = source if self.watch else unused("scene.toml")
-        self.picture_name = str(_folder_of(source) / PICTURE_NAME)
+        self.picture_name = str(folder_of(source) / PICTURE_NAME)
         self.picture_path = unused(self.picture_name)
         self._mark_saved()
         self._remember(source)
@@ -171,7 +180,9 @@ class Files:
         self.show(scene)
 
     def follow(self, now: float) -> None:
-        """Reload the scene file if another program has changed it."""
+        """Take the scene that a thread has read; reload a file that another program has changed."""
+        with self.messages.reporting():
+            self.aside.follow(self._opened)
         if not (self.watch and self.watch.has_changed(now)):
             return
         if self.is_lost:
@@ -210,7 +221,7 @@ class Files:
         self._mark_saved()
         self._remember(self.source)
         lost = "" if has_comments or not model else f", without the comments of {model.name}"
-        self.messages.report(f"Saved {_where(file)}{lost}")
+        self.messages.report(f"Saved {where(file)}{lost}")
         return True
 
     def save_again(self, then: Then = nothing) -> None:
@@ -241,7 +252,7 @@ class Files:
             return self.messages.complain("There is no picture yet.")
         with self.messages.reporting():
             self.session.image().save(path)
-            self.messages.report(f"Saved {_where(Path(path))}")
+            self.messages.report(f"Saved {where(Path(path))}")
             if path != unused(self.picture_name) and path != self.picture_path:
                 self.picture_name = path
             self.picture_path = unused(self.picture_name)
@@ -262,7 +273,7 @@ class Files:
         path = Path(unused("paths.json"))
         with self.messages.reporting():
             write_text(path, paths_to_json(found) + "\n")
-            self.messages.report(f"Saved {_where(path)}")
+            self.messages.report(f"Saved {where(path)}")
 
     def close(self, leave: Then) -> None:
         """Close the window by `leave`; ask first if that would lose edits."""
@@ -282,19 +293,6 @@ class Files:
 
     def _unless_there(self, path: str, is_agreed: bool, act: Then) -> None:
         if os.path.exists(path) and not is_agreed:
-            self.messages.ask("Replace it?", f"{_where(Path(path))} is there already.", replace=act)
+            self.messages.ask("Replace it?", f"{where(Path(path))} is there already.", replace=act)
         else:
             act()
-
-
-def _folder_of(source: str) -> Path:
-    """Return the folder of what is open, in which its recipe finds its files; else "."."""
-    file = Path(source)
-    is_usable = bool(source) and file.is_file() and os.access(file.parent, os.W_OK)
-    return file.parent if is_usable else Path()
-
-
-def _where(file: Path) -> str:
-    """Return the name of a file and its folder in words."""
-    whole = file.absolute()
-    return f"{whole.name} in {whole.parent}"

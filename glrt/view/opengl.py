@@ -5,7 +5,7 @@ import os
 import sys
 from typing import Any
 
-from imgui_bundle import imgui  # noqa: F401 - first: glfw then is the library that it brings
+from imgui_bundle import hello_imgui  # first: glfw then is the library that it brings
 
 import glfw  # isort: skip
 import moderngl
@@ -37,6 +37,14 @@ def wrap_window() -> Context:
     """Return the context of the open window for glrt."""
     loader: Any = WindowLoader()
     return Context(moderngl.create_context(require=FRAGMENT, context=loader), "window")
+
+
+def window_options(version: int) -> hello_imgui.OpenGlOptions:
+    """Return OpenGL options without antialiasing, which doubles the time of software drivers."""
+    options = hello_imgui.OpenGlOptions()
+    options.major_version, options.minor_version = divmod(version // 10, 10)
+    options.use_core_profile, options.anti_aliasing_samples = True, 0
+    return options
 
 
 def window_version(pipeline: Pipeline = "auto") -> int:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 import moderngl
 from imgui_bundle import hello_imgui, imgui, immapp
 
-from glrt.core.errors import ContextError
+from glrt.core.errors import ContextError, GlrtError
 from glrt.gpu.context import Pipeline
 from glrt.gpu.glsl import shader_files
 from glrt.image.sources import STRICT, FileRules
@@ -23,7 +23,8 @@ from glrt.view.event_wait import EventWait
 from glrt.view.file_watch import Watch
 from glrt.view.messages import Messages
 from glrt.view.native import Native
-from glrt.view.opengl import INSTEAD, window_version, wrap_window
+from glrt.view.opengl import INSTEAD, window_options, window_version, wrap_window
+from glrt.view.opening import Later
 from glrt.view.palette.box import Palette
 from glrt.view.panels.confirmations import draw_question
 from glrt.view.panels.key_table import draw_key_overlay
@@ -36,6 +37,8 @@ from glrt.view.recovery.headers import recovery_folder
 from glrt.view.recovery.keeper import Recovery
 from glrt.view.recovery.lost_display import handle_lost_display
 from glrt.view.recovery.question import draw_recovery
+from glrt.view.start.screen import StartScreen
+from glrt.view.start.thumbnails import Thumbnails
 from glrt.view.state.denoised_picture import DenoisedPicture
 from glrt.view.state.frame_budget import FrameBudget
 from glrt.view.state.idle_kernel import IdleKernel
@@ -68,15 +71,20 @@ class Window:
         settings: Settings,
         pipeline: Pipeline = "auto",
         rules: FileRules = STRICT,
+        later: Later | None = None,
     ) -> None:
         """Prepare the window, which `run` opens; ContextError without display or OpenGL 4.1.
 
+        Without a source it begins with the start screen, and `scene` is not shown.
         `pipeline` is compute, which needs OpenGL 4.3, or fragment; by default the first that works.
-        `rules` hold for the files of the scene, also when it is read again.
+        `rules` hold for the files of the scene, also when it is read again. `later` is a scene
+        that a thread reads for the window, which stands before; `run` raises what it raises.
         """
         self._version = window_version(pipeline)
         self._opened, self._rules = (source, scene, settings), rules
         self._pipeline: Pipeline = pipeline
+        self._later = later
+        self._refusal: GlrtError | None = None
         self._style = WindowStyle()
         self._began = self._kept = time.perf_counter()
         self._interruption = Interruption()
@@ -98,6 +106,8 @@ class Window:
                 if hasattr(self, "app"):
                     raise
                 raise ContextError(f"{GONE}: {error}. {INSTEAD}") from None
+        if self._refusal:
+            raise self._refusal
         return 128 + self._interruption.signal if self._interruption.signal else 0
 
     def _params(self) -> hello_imgui.RunnerParams:
@@ -108,7 +118,7 @@ class Window:
         params.imgui_window_params.default_imgui_window_type = (
             hello_imgui.DefaultImGuiWindowType.provide_full_screen_dock_space
         )
-        params.renderer_backend_options.open_gl_options = _opengl(self._version)
+        params.renderer_backend_options.open_gl_options = window_options(self._version)
         params.ini_folder_type = hello_imgui.IniFolderType.app_user_config_folder
         params.ini_filename = "glrt/view.ini"
         params.docking_params = self._docking()
@@ -132,9 +142,15 @@ class Window:
         docking.dockable_windows = [
             _part(PARTS[0], "Side", lambda: draw_panel(self.app)),
             _part(PARTS[1], "Below", lambda: draw_figures(self.app)),
-            _part(PARTS[2], "MainDockSpace", lambda: draw_picture(self.app)),
+            _part(PARTS[2], "MainDockSpace", self._draw_picture),
         ]
         return docking
+
+    def _draw_picture(self) -> None:
+        if self.app.shows_start:
+            self._start.draw(self.app)
+        else:
+            draw_picture(self.app)
 
     def _open(self) -> None:
         """Create the state of the window, once its OpenGL context is current."""
@@ -154,9 +170,15 @@ class Window:
             pivot=scene.camera.look_at,
             shaders=Watch(shader_files()),
             rules=self._rules,
+            shows_start=not source,
         )
+        self._start = StartScreen(Thumbnails(context.gl))
         self.app.messages.complain(problem)
         self.app.leave = self._leave
+        self.app.files.aside.driver = context.renderer, session.pipeline
+        if self._later:
+            self.app.files.aside.begin(*self._later)
+            self.app.files.aside.refuse = self._refuse
         self._native = Native(self.app.files.drop)
         self.app.fill_screen = self._native.toggle_full_screen
         self.recovery = Recovery(self.app.files, recovery_folder())
@@ -174,10 +196,10 @@ class Window:
         draw_keys(app)
         app.has_list_keys = False  # the list takes them again, if it is drawn
         for part in self.params.docking_params.dockable_windows[:2]:
-            part.is_visible = not app.is_picture_alone
+            part.is_visible = not (app.is_picture_alone or app.shows_start)
         self._shares.keep(PARTS)
         self._style.choose(app.preferences.theme, app.preferences.scale)
-        self._native.entitle(app.files.title)
+        self._native.entitle("glrt" if app.shows_start else app.files.title)
         app.advance()
         app.look(now)
         self._poll(now)
@@ -198,13 +220,14 @@ class Window:
         self._poll(now)
         is_done = self.app.show.is_done(self.app.session) and self.app.pair.is_done
         is_done = is_done and not self.app.paths.is_waiting
+        is_done |= self.app.shows_start
         return is_done and not self._interruption.signal and self._reports(now) == self._told
 
     def _reports(self, now: float) -> tuple[object, ...]:
         """Return the texts that appear or disappear without an event."""
         messages = self.app.messages
         told = self.app.session.problem, messages.recent(now), messages.question
-        return *told, len(self.recovery.offers), FINDER.is_marking
+        return *told, self.app.files.aside.text, len(self.recovery.offers), FINDER.is_marking
 
     def _keep(self, now: float) -> None:
         """Write changed preferences soon, not only at the end: a window may be killed."""
@@ -214,7 +237,8 @@ class Window:
 
     def _ask(self) -> None:
         """Draw the popups above the panels: tour, questions and file dialog."""
-        draw_tour(self.app)
+        if not self.app.shows_start:
+            draw_tour(self.app)
         draw_key_overlay(self.app)
         self._palette.draw(self.app)
         draw_recovery(self.recovery)
@@ -230,6 +254,11 @@ class Window:
             self.app.files.close(self.app.leave)
         return is_agreed
 
+    def _refuse(self, error: GlrtError) -> None:
+        """End the window: the scene that it was opened for is wrong."""
+        self._refusal = error
+        self._leave()
+
     def _leave(self) -> None:
         self._native.leave_full_screen()  # its size is kept for the next start
         self.params.app_shall_exit = True
@@ -239,6 +268,7 @@ class Window:
         self.app.keep_preferences()
         self.app.pair.go_on(False)
         self.app.show.release()
+        self._start.release()
         self.app.paths.release()
         self.app.silhouette.release()
         self.app.files.dialogs.close()
@@ -257,14 +287,6 @@ def _part(label: str, place: str, draw: Callable[[], None]) -> hello_imgui.Docka
     part.label, part.dock_space_name, part.gui_function = label, place, draw
     part.can_be_closed = False
     return part
-
-
-def _opengl(version: int) -> hello_imgui.OpenGlOptions:
-    """Return OpenGL options without antialiasing, which doubles the time of software drivers."""
-    options = hello_imgui.OpenGlOptions()
-    options.major_version, options.minor_version = divmod(version // 10, 10)
-    options.use_core_profile, options.anti_aliasing_samples = True, 0
-    return options
 
 
 def _configure() -> None:

@@ -20,7 +20,7 @@ FOLDERS = ("glrt", "shaders_glsl", "scenes")
 SUFFIXES = {
     "glrt": {".py", ".typed", ".npz", ".txt", ".html", ".js", ".css"},
     "shaders_glsl": {".glsl", ".comp", ".vert", ".frag"},
-    "scenes": {".toml", ".ply", ".glb", ".npy"},
+    "scenes": {".toml", ".ply", ".glb", ".npy", ".jpg"},
 }
 EXTRA = re.compile(r"glrt\[(\w+)\]")  # as in `pip install 'glrt[view]'`
 INFO = f"glrt-{VERSION}.dist-info"

@@ -55,3 +55,16 @@ def test_old_states_are_forgotten() -> None:
         history.undo(0)
         undone += 1
     assert undone == MOST
+
+
+def test_a_forgotten_history_leads_nowhere() -> None:
+    history: History[int] = History()
+    history.record(1)
+    history.record(2, "drag")
+    history.undo(3)
+    history.forget()
+    assert not history.can_undo
+    assert not history.can_redo
+    history.record(4, "drag")
+    history.record(5, "drag")
+    assert history.steps == 1

@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from glrt.image.image import Image
+from glrt.view.opening import LARGE
 from tests.support.processes import glrt
 
 ROOT = Path(__file__).parents[2]
@@ -80,6 +81,26 @@ def test_a_window_ends_at_any_moment(display: str, tmp_path: Path, moment: str, 
     if moment == "choosing":
         assert_gone(Path("/proc") / (tmp_path / "dialog.pid").read_text().strip())
     return None
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("moment", ["starting", "leaving_the_start"])
+def test_a_window_without_a_scene_lets_one_be_chosen(
+    display: str, tmp_path: Path, moment: str
+) -> None:
+    done = ended_at(moment, display, tmp_path)
+    assert (done.returncode, done.stderr) == (143, "")
+
+
+@pytest.mark.slow
+def test_a_large_model_that_is_wrong_ends_the_window_that_waits_for_it(
+    display: str, tmp_path: Path
+) -> None:
+    model = tmp_path / "wrong.obj"
+    model.write_text("v 0 0\n" * (LARGE // 6 + 1))
+    done = glrt("view", model, cwd=None, DISPLAY=display, **folders(tmp_path))
+    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
+    assert "wrong.obj" in done.stderr
 
 
 @pytest.mark.slow

@@ -144,6 +144,35 @@ def terminated_with_edits(window: Window, frame: int) -> None:
         terminate()
 
 
+def starting(window: Window, frame: int) -> None:
+    """Without a scene, nothing is compiled before one is chosen; undo knows no scene before."""
+    app = window.app
+    if frame == 0:
+        assert app.shows_start
+        assert not app.files.recent
+    if frame == FRAMES:
+        assert app.session.renderer is None
+        app.files.ask_open("lamps")
+    if frame > FRAMES and app.session.samples:
+        assert app.files.source == "lamps"
+        assert not app.shows_start
+        assert not app.session.history.can_undo
+        assert app.files.recent == ("lamps",)
+        terminate()
+
+
+def leaving_the_start(window: Window, frame: int) -> None:
+    """Escape goes on with the scene that comes first, small enough for a quick picture."""
+    if frame == FRAMES:
+        imgui.get_io().add_key_event(imgui.Key.escape, True)
+    if frame == FRAMES + 1:
+        imgui.get_io().add_key_event(imgui.Key.escape, False)
+    if frame > FRAMES + 2:
+        assert window.app.files.source == "cornell"
+        assert not window.app.shows_start
+        terminate()
+
+
 naps: list[float] = []  # since the last frame
 
 
@@ -191,8 +220,11 @@ MOMENTS: dict[str, Act] = {
         restoring,
         display_lost_with_edits,
         terminated_with_edits,
+        starting,
+        leaving_the_start,
     )
 }
+WITHOUT_SCENE = ("starting", "leaving_the_start")
 
 
 def run(moment: str) -> int:
@@ -212,7 +244,8 @@ def run(moment: str) -> int:
         return result
 
     Window._params = params  # type: ignore[assignment,method-assign]
-    return main(["view", "cornell", "--width", "32", "--height", "32"])
+    scene = ["cornell", "--width", "32", "--height", "32"]
+    return main(["view", *([] if moment in WITHOUT_SCENE else scene)])
 
 
 if __name__ == "__main__":

@@ -18,6 +18,7 @@ Ints = NDArray[np.int64]
 
 MOST_TRIANGLES = 4_000_000  # triangles in a scene
 MOST_KEPT = 8  # forms of a mesh that are kept: objects of one file may differ in them
+_CACHES = ("_varied", "_creased")  # functions with a cache
 NO_MATERIAL = "without material"  # name for triangles without one, in a file with materials
 
 
@@ -58,6 +59,10 @@ class TriangleMesh:
     repeated: int = 0  # triangles that were left out, since another one had the same corners
     unread: tuple[str, ...] = ()  # parts of the file that were left out, in words
     is_turned: bool = False  # whether the file winds its triangles the other way
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Return what a copy in another process needs: forms of the mesh are made again there."""
+        return {key: value for key, value in vars(self).items() if key not in _CACHES}
 
     @cached_property
     def box(self) -> tuple[Floats, Floats]:

@@ -58,6 +58,11 @@ class History(Generic[Value]):
         self._gesture = gesture
         self._future.clear()
 
+    def forget(self) -> None:
+        """Begin again, with an empty history."""
+        self._past, self._future = [], []
+        self.settle()
+
     def settle(self) -> None:
         """End the gesture, as when the mouse is released."""
         self._gesture = ""

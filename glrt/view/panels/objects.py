@@ -2,6 +2,7 @@
 
 from collections import Counter
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 from imgui_bundle import imgui
@@ -109,7 +110,7 @@ def _menu(app: App) -> None:
         if imgui.menu_item_simple(kind):
             app.add(kind)
     if imgui.menu_item_simple("mesh from a file"):
-        app.files.dialogs.ask_open("Add a model", file_dialogs.MODELS, app.files.add_from)
+        app.files.dialogs.ask_open("Add a model", file_dialogs.MODELS, partial(_add_from, app))
     imgui.end_popup()
 
 
@@ -162,3 +163,7 @@ def _shape(app: App, index: int, shape: Shape) -> None:
 
 def _reshaped(index: int, changes: dict[str, Any], scene: Scene) -> Scene:
     return with_object(scene, index, replaced(scene.objects[index], **changes))
+
+
+def _add_from(app: App, path: str) -> None:
+    app.files.add(Path(path))

@@ -34,6 +34,7 @@ COMMANDS: dict[Action, Callable[[App], object]] = {  # command of each action
     "darker": lambda app: app.expose(-_STOP),
     "picture_alone": lambda app: app.toggle_panels(),
     "full_screen": lambda app: app.fill_screen(),
+    "start": lambda app: app.toggle_start(),
     "panel": lambda app: navigate(app, not app.navigates),
     "undo": lambda app: app.undo(),
     "redo": lambda app: app.redo(),
@@ -45,6 +46,9 @@ COMMANDS: dict[Action, Callable[[App], object]] = {  # command of each action
     "save": lambda app: app.files.save_picture(),
     "quit": lambda app: app.files.close(app.leave),
 }
+ANYWHERE: tuple[Action, ...] = (  # also on the start screen, which hides what others change
+    *("keys", "palette", "full_screen", "start", "open", "quit"),
+)
 _STOP = 0.5  # exposure values of one press of a key
 _LONGEST_STEP = 0.1  # seconds: a slow frame must not throw the camera out of the room
 _ANY_POPUP = int(imgui.PopupFlags_.any_popup)
@@ -73,13 +77,13 @@ def draw_keys(app: App) -> None:
     elif is_free and imgui.is_key_pressed(imgui.Key.escape, False):
         app.escape()
     seconds = min(io.delta_time, _LONGEST_STEP)
-    moves = {} if app.navigates else _AXES
+    moves = {} if app.navigates or app.shows_start else _AXES
     held = [axis for action, axis in moves.items() if _is_held(app, action)]
     if held:
         right, up, forward = (float(sum(parts)) for parts in zip(*held, strict=True))
         app.walk(right, up, forward, seconds)
     for action, act in COMMANDS.items():
-        if _is_pressed(app, action):
+        if _is_pressed(app, action) and (action in ANYWHERE or not app.shows_start):
             act(app)
             app.is_deaf = "ctrl" in modifiers()  # keys released after Ctrl move nothing
     if not held and not imgui.is_any_item_active() and not _may_click_again():

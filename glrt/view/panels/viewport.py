@@ -82,7 +82,9 @@ def _share_under_mouse(app: App) -> tuple[float, float]:
 
 def notices(app: App) -> list[str]:
     """Return what is said about the picture at present, a line each."""
+    opens = app.files.aside.text
     lines = (
+        f"{opens}; Escape cancels" if opens else "",
         app.show.notice(app.session),
         notice_of_lag(app.session.lag),
         paths_text(app),

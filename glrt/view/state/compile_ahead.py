@@ -84,8 +84,8 @@ def compile_part(part: str) -> None:
 def _ready(recipe: Recipe, layering: Layering) -> Iterator[Renderer]:
     """Yield a renderer of a small part of the picture, with the same kernel as the window."""
     pipeline: Resolved = "fragment" if recipe.pipeline == "fragment" else "compute"
-    context = _same_driver(recipe.renderer, pipeline)
-    settings = _cropped(recipe.settings)
+    context = same_driver(recipe.renderer, pipeline)
+    settings = cropped(recipe.settings)
     scene = with_stand_ins(recipe.scene)
     renderer = Renderer(scene, settings, context, pipeline=pipeline, layering=layering)
     yield renderer
@@ -93,7 +93,8 @@ def _ready(recipe: Recipe, layering: Layering) -> Iterator[Renderer]:
     context.gl.release()
 
 
-def _same_driver(name: str, pipeline: Resolved) -> Context:
+def same_driver(name: str, pipeline: Resolved) -> Context:
+    """Open the driver of this name; ContextError if no route leads to it."""
     for route in _ROUTES:
         try:
             context = open_context(route, pipeline)
@@ -105,7 +106,8 @@ def _same_driver(name: str, pipeline: Resolved) -> Context:
     raise ContextError(f"no route leads to {name}")
 
 
-def _cropped(settings: Settings) -> Settings:
+def cropped(settings: Settings) -> Settings:
+    """Return settings for a small part of the picture, which needs the same kernel."""
     sides = settings.width, settings.height
     width, height = map(_small, sides)
     corner = (sides[0] - width) // 2, (sides[1] - height) // 2

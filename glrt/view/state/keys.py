@@ -9,7 +9,7 @@ Action = (
     Move
     | Literal["home", "frame", "handles", "pause", "undo", "redo"]
     | Literal["fit", "one_to_one", "inspect", "paths", "panel", "keys", "palette", "find_object"]
-    | Literal["brighter", "darker", "picture_alone", "full_screen"]
+    | Literal["brighter", "darker", "picture_alone", "full_screen", "start"]
     | Literal["duplicate", "delete", "open", "save_scene", "save_scene_as", "save", "quit"]
 )
 Bindings = dict[Action, tuple[str, ...]]
@@ -33,6 +33,7 @@ DEFAULTS: Bindings = {
     "darker": ("left_bracket",),
     "picture_alone": ("n",),
     "full_screen": ("f11",),
+    "start": ("f2",),
     "panel": ("f6",),
     "keys": ("f1",),
     "palette": ("ctrl+k",),
@@ -66,6 +67,7 @@ MEANING: dict[Action, str] = {
     "darker": "expose half a stop less",
     "picture_alone": "hide the panels, and show them",
     "full_screen": "show the window in full screen, and back",
+    "start": "show scenes to open, and back",
     "panel": "move in the panel by keys, and back",
     "keys": "show these keys",
     "palette": "find a control or a command",

@@ -1,0 +1,66 @@
+"""Compile the kernel of a scene, its meshes included, in another process.
+
+The driver keeps what it compiles, so that the window finds it and does not freeze. `python -m
+glrt.view.scene_compiler` reads from its input what to compile, pickled.
+"""
+
+import pickle
+import subprocess
+import sys
+from collections.abc import Callable
+from tempfile import TemporaryFile
+
+from glrt.plan.plan import Layering
+from glrt.rendering.passes import Resolved
+from glrt.rendering.renderer import Renderer
+from glrt.scene.scene import Scene
+from glrt.settings import Settings
+from glrt.view.state.compile_ahead import cropped, same_driver
+
+PAUSE = 0.1  # seconds between two calls of `goes_on`
+_COMMAND = [sys.executable, "-m", "glrt.view.scene_compiler"]
+
+Driver = tuple[str, Resolved]  # its name, and the pipeline of the window
+Part = tuple[Scene, Settings, Layering, Driver]
+
+
+def compile_for(part: Part, goes_on: Callable[[], object]) -> bool:
+    """Compile the kernel of a part; return whether that worked.
+
+    `goes_on` is called now and then; what it raises ends the process.
+    """
+    with TemporaryFile() as given:
+        try:
+            pickle.dump(part, given)
+        except (pickle.PicklingError, TypeError, AttributeError):  # as of a file's animations
+            return False
+        given.seek(0)
+        nowhere = subprocess.DEVNULL
+        with subprocess.Popen(_COMMAND, stdin=given, stdout=nowhere, stderr=nowhere) as process:
+            try:
+                while process.poll() is None:
+                    goes_on()
+                    try:
+                        process.wait(PAUSE)
+                    except subprocess.TimeoutExpired:
+                        continue
+            except BaseException:
+                process.kill()
+                raise
+            return process.returncode == 0
+
+
+def compile_part(part: Part) -> None:
+    """Compile the kernel of a part, and render with it: drivers compile at the first dispatch.
+
+    Raises ContextError if the driver of the window cannot be opened in this process.
+    """
+    scene, settings, layering, (name, pipeline) = part
+    context = same_driver(name, pipeline)
+    small = cropped(settings)
+    renderer = Renderer(scene, small, context, pipeline=pipeline, layering=layering, apart="moved")
+    renderer.render(1)
+
+
+if __name__ == "__main__":
+    compile_part(pickle.load(sys.stdin.buffer))
