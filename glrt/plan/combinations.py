@@ -129,13 +129,24 @@ _WORKS: dict[Way, tuple[Way, ...]] = {
 
 _LENGTH = "which samples a part has follows from their number in all: give --samples"
 _BLOCKS = "it goes by blocks of samples, which a net lacks: use --sampler sobol"
+_OF_BLOCKS = (Way.AOV, Way.TERMS, Way.PROBES, Way.REUSE, Way.HYBRID, Way.PARTICLES, Way.DENOISE)
+_METHODS = (Way.CLASSIC, Way.PROBES, Way.REUSE, Way.HYBRID, Way.MARCH)
+_WITH_PROBES = {Way.PROBES, Way.REUSE}, {Way.PROBES, Way.HYBRID}  # methods that have probes
+_SHARED = "the 16 samples of a block share their probes, so that they are one observation"
 _REFUSED: dict[frozenset[Way], str] = {
-    frozenset({Way.AOV, Way.NET}): _BLOCKS,
-    frozenset({Way.TERMS, Way.NET}): _BLOCKS,
+    **{frozenset({way, Way.INDEPENDENT}): _SHARED for way in (Way.PROBES, Way.REUSE)},
+    **{frozenset({Way.NET, way}): _BLOCKS for way in (*_OF_BLOCKS, Way.AUTO)},
+    **{
+        frozenset(pair): "each is a method"
+        for pair in combinations(_METHODS, 2)
+        if {*pair} not in _WITH_PROBES
+    },
+    **{
+        frozenset({Way.PARTICLES, way}): "particles are weighed by the method mis alone"
+        for way in _METHODS
+    },
     frozenset({Way.FRAGMENT, Way.NET}): "a fragment shader writes to too few textures for a net",
     frozenset({Way.INDEPENDENT, Way.NET}): "each is a sampler",
-    **{frozenset({Way.NET, way}): _BLOCKS for way in (Way.PROBES, Way.REUSE, Way.HYBRID, Way.AUTO)},
-    **{frozenset({Way.NET, way}): _BLOCKS for way in (Way.PARTICLES, Way.DENOISE)},
     frozenset({Way.MERGED, Way.RESUME}): "a plain render adds its samples in another order",
     frozenset({Way.LAYERS, Way.RESUME}): "the picture lacks the layers that it was summed from",
     frozenset({Way.LAYERS, Way.PART}): "a part holds the sum alone: save the scene and render that",
@@ -148,30 +159,13 @@ _REFUSED: dict[frozenset[Way], str] = {
     frozenset({Way.PARTICLES, Way.FRAGMENT}): "a fragment shader adds to its own pixel alone",
     frozenset({Way.PROBES, Way.LAYERS}): "probes hold the light of all lamps in one",
     frozenset({Way.PROBES, Way.FRAGMENT}): "compute shaders fill the probes",
-    frozenset({Way.PROBES, Way.INDEPENDENT}): "the 16 samples of a block share their probes, so "
-    "that they are one observation",
-    frozenset({Way.PROBES, Way.CLASSIC}): "each is a method",
-    frozenset({Way.PROBES, Way.PARTICLES}): "particles are weighed by the method mis alone",
     frozenset({Way.PROBES, Way.AUTO}): "it chooses among methods that leave no light out",
     frozenset({Way.REUSE, Way.CROP}): "a sample asks pixels around, beyond the crop, too",
     frozenset({Way.REUSE, Way.LAYERS}): "probes hold the light of all lamps in one",
     frozenset({Way.REUSE, Way.FRAGMENT}): "compute shaders fill the probes",
-    frozenset({Way.REUSE, Way.INDEPENDENT}): "the 16 samples of a block share their probes, so "
-    "that they are one observation",
-    frozenset({Way.REUSE, Way.CLASSIC}): "each is a method",
-    frozenset({Way.REUSE, Way.PARTICLES}): "particles are weighed by the method mis alone",
     frozenset({Way.REUSE, Way.AUTO}): "it chooses among methods that leave no light out",
-    frozenset({Way.HYBRID, Way.CLASSIC}): "each is a method",
-    frozenset({Way.HYBRID, Way.REUSE}): "each is a method",
-    frozenset({Way.HYBRID, Way.PARTICLES}): "particles are weighed by the method mis alone",
     frozenset({Way.HYBRID, Way.AUTO}): "it chooses among methods that leave no light out",
-    **{
-        frozenset({Way.MARCH, other}): "each is a method"
-        for other in (Way.CLASSIC, Way.PROBES, Way.REUSE, Way.HYBRID)
-    },
-    frozenset({Way.MARCH, Way.PARTICLES}): "particles are weighed by the method mis alone",
     frozenset({Way.MARCH, Way.AUTO}): "it has a method of its own: leave out --method auto",
-    frozenset({Way.PARTICLES, Way.CLASSIC}): "particles are weighed by the method mis alone",
     frozenset({Way.PARTICLES, Way.AUTO}): "particles are weighed by the method mis alone: name it",
     frozenset({Way.PARTICLES, Way.PILOT}): "the one leaves open what the other says",
     frozenset({Way.AUTO, Way.RESUME}): "the picture has its method: leave out --method auto",
@@ -179,10 +173,7 @@ _REFUSED: dict[frozenset[Way], str] = {
     frozenset({Way.AUTO, Way.MERGED}): "its parts have their method: leave out --method auto",
     frozenset({Way.AUTO, Way.LAYERS}): "its layers were traced by one method: leave it out",
     frozenset({Way.AUTO, Way.CLASSIC}): "it chooses among methods that leave no light out",
-    frozenset({Way.TIME, Way.PART}): _LENGTH,
-    frozenset({Way.TIME, Way.MERGED}): _LENGTH,
-    frozenset({Way.ERROR, Way.PART}): _LENGTH,
-    frozenset({Way.ERROR, Way.MERGED}): _LENGTH,
+    **{frozenset({a, b}): _LENGTH for a in (Way.TIME, Way.ERROR) for b in (Way.PART, Way.MERGED)},
     frozenset({Way.DENOISE, Way.PART}): "it compares halves of all samples: render without parts",
     frozenset({Way.DENOISE, Way.MERGED}): "halves of all samples cannot be found from its parts",
     frozenset({Way.DENOISE, Way.AUTO}): "it chooses by the error of plain pictures: name a method",
