@@ -131,7 +131,7 @@ bool collides_in_steps(inout Path path, float distance) {
         Medium even = medium_of_step(row, medium, steps);
         float length = steps.end - steps.begin;
         gather_glow(path, even, length);
-        float way;
+        float way = 0.0;
         if (medium.scattering == vec3(0.0)) {
             path.throughput *= share_left(even.extinction, length);
         } else if (flies_into(path.flight, even, length, way)) {
@@ -164,7 +164,7 @@ bool collides(inout Path path, float distance) {
     Approach approach = no_approach();
     if (HAS_EQUIANGULAR && path.flight.dice.x >= 0.0) approach = approach_lamps(path, medium, distance);
     float chance = dot(path.flight.chances, path.flight.left);
-    float way;
+    float way = 0.0;
     bool is_met = flies_into(path.flight, medium, distance, way);
     if (is_met) {
         if (HAS_EQUIANGULAR) {

@@ -57,7 +57,7 @@ vec3 weight_of_collision(Flight flight, Medium medium) {
 
 // Flies over a distance through a medium that is the same everywhere. True if the path collides on its way, `way` from
 // the start.
-bool flies_into(inout Flight flight, Medium medium, float distance, out float way) {
+bool flies_into(inout Flight flight, Medium medium, float distance, inout float way) {
     float extinction = medium.extinction[flight.channel];
     float depth = extinction * distance;
     bool is_met = flight.depth < depth;

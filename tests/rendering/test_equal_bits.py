@@ -91,7 +91,7 @@ def test_the_renders_use_every_feature() -> None:
     assert found["lamps"] == set(SAMPLED)
 
 
-@pytest.mark.slow_cases("by constants")
+@pytest.mark.slow_cases("by constants", "by nets")
 @pytest.mark.parametrize("name", RENDERS)
 def test_the_kernel_of_a_profile(software: Context, usual: Image, name: str) -> None:
     """Other tests render by these: features that a scene leaves out change no bit."""
@@ -100,12 +100,12 @@ def test_the_kernel_of_a_profile(software: Context, usual: Image, name: str) -> 
     assert same(image, usual)
 
 
-WAYS = [  # a crowd has too many shapes to be baked; particles and probes have no fragment shader
+WAYS = [  # a crowd has too many shapes to be baked; some lack a fragment shader
     *((name, "tier", "baked") for name in RENDERS if name != "crowd"),
     *(
         (name, "pipeline", "fragment")
         for name in RENDERS
-        if name not in ("caustics", "shared places")
+        if name not in ("caustics", "shared places", "by nets")
     ),
 ]
 
@@ -113,7 +113,7 @@ WAYS = [  # a crowd has too many shapes to be baked; particles and probes have n
 @pytest.mark.slow_cases(
     *("by constants-tier-baked", "by constants-pipeline-fragment"),
     *("drawn-tier-baked", "drawn-pipeline-fragment"),
-    *("hazy by steps-tier-baked", "hazy by steps-pipeline-fragment"),
+    *("hazy by steps-tier-baked", "hazy by steps-pipeline-fragment", "by nets-tier-baked"),
 )
 @pytest.mark.parametrize(("name", "key", "way"), WAYS)
 def test_tiers_and_pipelines(

@@ -218,13 +218,13 @@ def test_a_renderer_that_is_refused_leaves_no_context_open(
         return opened[-1]
 
     monkeypatch.setattr("glrt.rendering.renderer.open_context", opening)
-    with pytest.raises(RenderError, match="the driver refuses"):
+    with pytest.raises(RenderError, match="along an edge"):
         Renderer(everything(), layering="lengths", width=16384, height=16)
     assert isinstance(opened[0].gl.mglo, moderngl.InvalidObject)
 
 
 def test_a_context_that_was_given_stays_open_when_a_renderer_is_refused(context: Context) -> None:
-    with pytest.raises(RenderError, match="the driver refuses"):
+    with pytest.raises(RenderError, match="along an edge"):
         Renderer(everything(), None, context, layering="lengths", width=16384, height=16)
     assert rendered(everything(), context, 1).samples == 1
 

@@ -176,7 +176,7 @@ def test_an_update_that_the_driver_refuses_changes_nothing(
         renderer.advance(0.0, 9)
         assert renderer.work > 2
         before = renderer.scene, renderer.settings, renderer.plan
-        with pytest.raises(RenderError, match="the driver refuses"):
+        with pytest.raises(RenderError, match="along an edge"):
             renderer.update(RESTARTING["a turn"], width=16384, layering="lengths")
         with monkeypatch.context() as patch:
             patch.setattr(kernel_switch, "compiled", refuse)

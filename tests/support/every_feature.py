@@ -172,4 +172,5 @@ RENDERS: dict[str, tuple[Scene, dict[str, Any]]] = {
     "hazy": (hazy(), {"method": "mis"}),
     "hazy by steps": (hazy(), {"method": "march", "march_step": 0.1}),
     "drawn": (mapped(), {"method": "hybrid", "effects": TRACED}),
+    "by nets": (still_life(), {"method": "mis", "sampler": "net"}),
 }

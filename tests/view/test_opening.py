@@ -129,11 +129,14 @@ def test_a_large_scene_is_compiled_before_it_is_ready(
     def compiled(part: Part, goes_on: Callable[[], object]) -> bool:
         goes_on()
         parts.append(part)
+        is_there.wait(100)
         stages.append(read.text)
         return True
 
+    is_there = Event()
     monkeypatch.setattr(opening, "compile_for", compiled)
     read = Opening(str(model), STRICT, driver=driver)
+    is_there.set()
     scene, _ = read.result()
     assert stages == ["compiling"]
     assert [(part[0], part[3]) for part in parts] == [(scene, driver)]

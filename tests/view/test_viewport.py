@@ -28,6 +28,7 @@ class Turned:
         self.steps: list[tuple[float, float, float]] = []
         self.awaited = None
         self.is_deaf = self.navigates = self.was_busy = self.has_list_keys = False
+        self.shows_start = False
 
     def turn(self, across: float, down: float, about_camera: bool) -> None:
         assert not about_camera
