@@ -9,13 +9,12 @@ the picture of docs: one for each row, and the reference.
 import argparse
 import sys
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bench.program import at_least, exit_code_of, parser_of
+from bench.program import add_picture, exit_code_of, parser_of
 from bench.terms import titled, write_sheet
 from glrt.core.files import check_writable, write_whole
 from glrt.gpu.context import Context, open_context
@@ -35,10 +34,7 @@ Picture = NDArray[np.float32]
 def main(arguments: list[str] | None = None) -> int:
     """Print the table and write the picture; returns the exit code."""
     parser = parser_of("effects", __doc__)
-    parser.add_argument("scene", nargs="?", default="cornell", help="default: cornell")
-    parser.add_argument("--samples", type=at_least(16), default=256, help="default: 256")
-    parser.add_argument("--size", type=at_least(8), default=192, help="edge, pixels; default: 192")
-    parser.add_argument("-o", dest="file", type=Path, metavar="FILE.jpg", help="picture to write")
+    add_picture(parser, "cornell", 256, 192, "edge, pixels")
     return exit_code_of(lambda: _run(parser.parse_args(arguments)))
 
 

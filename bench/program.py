@@ -4,6 +4,7 @@ import argparse
 import os
 import sys
 from collections.abc import Callable, Iterable
+from pathlib import Path
 
 from glrt.core.errors import GlrtError
 from glrt.core.version import VERSION
@@ -47,6 +48,17 @@ def add_rounds(
     told = f"runs of each, {least_rounds} or more (default: {rounds})"
     rounds_type = at_least(least_rounds)
     parser.add_argument("--rounds", type=rounds_type, default=rounds, metavar="N", help=told)
+
+
+def add_picture(
+    parser: argparse.ArgumentParser, scene: str, samples: int, size: int, what: str
+) -> None:
+    """Add the arguments of a program that renders a scene, with these defaults, for a picture."""
+    parser.add_argument("scene", nargs="?", default=scene, help=f"default: {scene}")
+    told = f"default: {samples}"
+    parser.add_argument("--samples", type=at_least(16), default=samples, help=told)
+    parser.add_argument("--size", type=at_least(8), default=size, help=f"{what}; default: {size}")
+    parser.add_argument("-o", dest="file", type=Path, metavar="FILE.jpg", help="picture to write")
 
 
 def add_tables(parser: argparse.ArgumentParser, tables: Iterable[str]) -> None:

@@ -7,13 +7,12 @@ explains. `-o FILE.jpg` writes the picture of docs: some of the lengths, and `mi
 
 import argparse
 import sys
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from bench.effects import DARK
-from bench.program import at_least, exit_code_of, parser_of
+from bench.program import add_picture, exit_code_of, parser_of
 from bench.terms import titled, write_sheet
 from glrt.core.errors import UsageError
 from glrt.core.files import check_writable, write_whole
@@ -33,10 +32,7 @@ SHOWN = (2, 8, 32)
 def main(arguments: list[str] | None = None) -> int:
     """Print the table and write the picture; returns the exit code."""
     parser = parser_of("steps", __doc__)
-    parser.add_argument("scene", nargs="?", default="smoke", help="default: smoke")
-    parser.add_argument("--samples", type=at_least(16), default=1024, help="default: 1024")
-    parser.add_argument("--size", type=at_least(8), default=128, help="height; default: 128")
-    parser.add_argument("-o", dest="file", type=Path, metavar="FILE.jpg", help="picture to write")
+    add_picture(parser, "smoke", 1024, 128, "height")
     return exit_code_of(lambda: _run(parser.parse_args(arguments)))
 
 

@@ -12,13 +12,11 @@ Modules, each importing only what stands above it:
 - glass: refraction and caustics
 - particles: caustics of lamps, glasses, numbers of balls and cameras of any kind
 - probes: light through thin walls, rooms that hardly absorb
-- live_probes: light after a step, rooms of any size
 - reuse: points of other pixels, where slats stand between
 - denoising: the bias of a filter, what is thin, and fireflies
 - media: depth, turns, colours and bounds of media
 - marching: grids that are crossed in steps
-- moving: history while the camera moves
-- history: what temporal modes make of a still pixel
+- temporal: what is shown from frame to frame
 - sky: a sun of one pixel in an image of the sky
 - rough_glass: the light that rough glass and white plastic keep, a lamp inside glass
 - textures: coordinates far away, bent normals, layers full of holes

@@ -3,12 +3,9 @@
 from glrt.lab import (
     denoising,
     glass,
-    history,
     lamps,
-    live_probes,
     marching,
     media,
-    moving,
     particles,
     points,
     probes,
@@ -23,6 +20,7 @@ from glrt.lab import (
     views,
 )
 from glrt.lab.sweep import Case
+from glrt.lab.temporal import live_probes, moving, still_pixel
 
 _ALL = (
     Case("distance", "A distant sphere", rays.distance),
@@ -60,8 +58,8 @@ _ALL = (
     Case("step", "History under light that changes", moving.step),
     Case("flicker", "History under light that flickers", moving.flicker),
     Case("uncovered", "History where an edge uncovers a wall", moving.uncovered),
-    Case("outliers", "Fireflies in the history of a pixel", history.outliers),
-    Case("still", "Least squares of a still pixel", history.still),
+    Case("outliers", "Fireflies in the history of a pixel", still_pixel.outliers),
+    Case("still", "Least squares of a still pixel", still_pixel.still),
     Case("leak", "Light of probes through a wall", probes.leak),
     Case("wall", "Probes that stand in a wall", probes.in_wall),
     Case("contact", "Light of probes under a ball", probes.contact),

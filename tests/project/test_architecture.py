@@ -2,6 +2,7 @@
 
 import ast
 import re
+from collections import Counter
 from itertools import chain
 from pathlib import Path
 from statistics import median
@@ -15,6 +16,7 @@ ROOT = PACKAGE.parent
 # Packages whose modules may use moderngl; the others go through them.
 KNOW_OPENGL = {"gpu", "packing", "rendering", "view", "analysis"}
 SLOW_TO_IMPORT = {"OpenEXR", "PIL", "matplotlib", "rich", "trimesh"}
+MOST_MODULES_OF_A_FOLDER = 25
 MOST_LINES_OF_A_FILE = 300
 MOST_LINES_OF_A_FUNCTION = 60
 
@@ -210,6 +212,11 @@ def test_files_are_short() -> None:
         str(f): len(f.read_text().splitlines()) for f in [*sources(), *outside, *shader_files()]
     }
     assert {name: n for name, n in lengths.items() if n > MOST_LINES_OF_A_FILE} == {}
+
+
+def test_folders_hold_few_modules() -> None:
+    counts = Counter(file.parent for file in sources() if file.name != "__init__.py")
+    assert {str(f): n for f, n in counts.items() if n > MOST_MODULES_OF_A_FOLDER} == {}
 
 
 def test_functions_fit_a_screen_and_most_are_shorter_than_ten_lines() -> None:

@@ -2,7 +2,7 @@
 
 import math
 import statistics
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -101,13 +101,11 @@ def crossing(lab: Lab) -> Sweep:
         places = [(frame - FRAMES + 1) * pixels * TALL / SIDE for frame in range(FRAMES)]
         moves = Frames("crossing", tuple(map(scene, places)))
         _add_errors(lab, moves, truths, errors, 1, inside)
-    return Sweep(
-        parameter="speed of the ball, in pixels a frame",
-        measure=f"relative RMS error on the ball, after {FRAMES} frames of one sample",
-        x=SPEEDS,
-        promise=f"at most {WORSE:g} times that of reset",
-        bound=[WORSE * error for error in errors["reset"]],
-        **_curves(errors),
+    return _against_reset(
+        "speed of the ball, in pixels a frame",
+        f"relative RMS error on the ball, after {FRAMES} frames of one sample",
+        SPEEDS,
+        errors,
     )
 
 
@@ -120,13 +118,11 @@ def _sideways(lab: Lab, scene: Scene) -> Sweep:
         moves = Frames("pan", tuple(_aside(scene, place) for place in places))
         truths = _truths(lab, moves.scenes[-1])
         _add_errors(lab, moves, truths, errors, SAMPLES)
-    return Sweep(
-        parameter="speed of the camera, in pixels a frame",
-        measure=f"relative RMS error after {FRAMES} frames",
-        x=SPEEDS,
-        promise=f"at most {WORSE:g} times that of reset",
-        bound=[WORSE * error for error in errors["reset"]],
-        **_curves(errors),
+    return _against_reset(
+        "speed of the camera, in pixels a frame",
+        f"relative RMS error after {FRAMES} frames",
+        SPEEDS,
+        errors,
     )
 
 
@@ -212,13 +208,11 @@ def uncovered(lab: Lab) -> Sweep:
         aside = width / SIDE * 2 * math.tan(math.radians(20)) * 3 / 2
         moves = Frames("pan", (*[_aside(scene, -aside)] * BEFORE, scene))
         _add_errors(lab, moves, truths, errors, 1, band)
-    return Sweep(
-        parameter="width of what is uncovered, in pixels",
-        measure="relative RMS error there, after one sample",
-        x=BANDS,
-        promise=f"at most {WORSE:g} times that of reset",
-        bound=[WORSE * error for error in errors["reset"]],
-        **_curves(errors),
+    return _against_reset(
+        "width of what is uncovered, in pixels",
+        "relative RMS error there, after one sample",
+        BANDS,
+        errors,
     )
 
 
@@ -240,6 +234,20 @@ def _add_errors(
             squares[name].append(_squared(picture, truths, where))
     for name, found in squares.items():
         errors[name].append(_root(found))
+
+
+def _against_reset(
+    parameter: str, measure: str, x: Sequence[float], errors: dict[str, list[float]]
+) -> Sweep:
+    """A sweep whose promise is an error that is hardly above that of `reset`."""
+    return Sweep(
+        parameter=parameter,
+        measure=measure,
+        x=x,
+        promise=f"at most {WORSE:g} times that of reset",
+        bound=[WORSE * error for error in errors["reset"]],
+        **_curves(errors),
+    )
 
 
 def _aside(scene: Scene, by: float) -> Scene:
