@@ -14,7 +14,7 @@ from glrt.image.image import Image
 from glrt.notebook.encoding import encoded
 from glrt.notebook.messages import NOTHING, Asked, Reply, asked_of
 from glrt.notebook.rows import rows_of
-from glrt.notebook.shared_context import SHARED, SharedContext
+from glrt.notebook.shared_context import HOLD, SHARED, SharedContext
 from glrt.rendering.history.temporal import Way
 from glrt.rendering.screen.display import Display
 from glrt.scene.scene import Scene, with_lights
@@ -84,12 +84,18 @@ class Live:
     def answer(self, message: Any) -> Reply:
         """Obey the input in a message, render for a frame's time, and return what is new.
 
-        An error becomes a notice, which stays until the next input.
+        An error becomes a notice, which stays until the next input. While another picture of the
+        context follows the mouse, this one waits.
         """
         try:
             asked = asked_of(message)
         except UsageError as error:
             asked, self._problem = NOTHING, str(error)
+        if asked != NOTHING:
+            self._shared.hold(self, self._clock())
+        elif self._session and self._shared.is_held(self, self._clock()):
+            self._asked = None
+            return Reply({"wait": HOLD})
         try:
             with self._shared.turn():
                 session = self._opened()

@@ -6,9 +6,12 @@ current in one thread at most, so a lock is held while it is.
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from math import inf
 from threading import RLock
 
 from glrt.gpu.context import Context, open_context
+
+HOLD = 0.5  # seconds after the input of a picture for which the others rest
 
 
 class SharedContext:
@@ -18,6 +21,16 @@ class SharedContext:
         """Open nothing yet."""
         self._lock = RLock()
         self._context: Context | None = None
+        self._held: tuple[object, float] = (None, -inf)  # by which picture, and since when
+
+    def hold(self, picture: object, now: float) -> None:
+        """Note that a picture has got input, so that it has the machine to itself."""
+        self._held = picture, now
+
+    def is_held(self, picture: object, now: float) -> bool:
+        """Whether another picture has got input in the last `HOLD` seconds."""
+        holder, since = self._held
+        return holder is not picture and now - since < HOLD
 
     @contextmanager
     def turn(self) -> Iterator[Context]:

@@ -7,6 +7,7 @@ import pytest
 
 from glrt.core.errors import UsageError
 from glrt.notebook.live import MOST_WAITS, Live
+from glrt.notebook.shared_context import HOLD
 from glrt.rendering.renderer import Renderer
 from glrt.view.state.error_history import PAUSE
 from glrt.view.state.idle_kernel import PAUSE as REST
@@ -172,7 +173,7 @@ def test_a_scene_that_the_driver_refuses_is_reported(
     assert reply.content["wait"] is None
 
 
-def test_pictures_of_one_context_do_not_disturb_each_other(opened: Opening) -> None:
+def test_pictures_of_one_context_do_not_disturb_each_other(opened: Opening, clock: Clock) -> None:
     one, other = opened(), opened(seed=7)
     begun(one)
     begun(other)
@@ -182,7 +183,24 @@ def test_pictures_of_one_context_do_not_disturb_each_other(opened: Opening) -> N
     before = other.image().samples
     asked(one, turn=[0.3, 0])
     one.rest()
+    clock.now += HOLD
     assert samples(asked(other, 4)) > before
+
+
+def test_a_picture_rests_while_another_follows_the_mouse(opened: Opening, clock: Clock) -> None:
+    one, other = opened(), opened(seed=7)
+    begun(one)
+    before = samples(begun(other))
+    asked(one, turn=[0.3, 0])
+    waiting = other.answer({})
+    assert waiting.content == {"wait": HOLD}
+    assert waiting.picture is None
+    assert other.image().samples == before
+    assert asked(one, 3).content["wait"] == 0, "the one that moves goes on"
+    clock.now += HOLD
+    assert samples(asked(other, 4)) > before
+    asked(one, turn=[0.3, 0])
+    assert other.answer({"turn": [0.1, 0]}).content["wait"] == 0, "input is never left waiting"
 
 
 @pytest.mark.slow
