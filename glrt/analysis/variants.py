@@ -10,6 +10,7 @@ from glrt.plan.facts import SceneFacts
 from glrt.plan.features import needs_of
 from glrt.plan.methods import METHODS as TRAITS
 from glrt.plan.methods import traits_of
+from glrt.rendering.probe_supply import HYSTERESIS
 from glrt.scene.grids import edges_of_voxels
 from glrt.scene.scene import Scene
 from glrt.settings import Method, Settings, settings_for
@@ -18,6 +19,7 @@ METHODS: tuple[str, ...] = get_args(Method)
 LEAD = "mis"  # the method whose variants are charted
 LINKED = {"particles": 0.35, "aimed": 0.2, "linked": 1.0}  # particles that are linked, too
 LONGER = 8  # times the step of a method that marches
+LIVE = "ddgi, live probes"
 FEW_BOUNCES, MANY_TIMES, MOST_BOUNCES = (1, 2, 5), 8, 256
 
 
@@ -27,6 +29,7 @@ class Variant:
 
     name: str
     settings: Settings
+    hysteresis: float | None = None  # of live probes, which continue from picture to picture
 
 
 def variants_of(
@@ -56,6 +59,17 @@ def variants_of(
             Variant(f"{known.name} = {name}", known.settings) if known else Variant(name, wanted)
         )
     return list(found.values())
+
+
+def live_variant(scene: Scene, settings: Settings) -> Iterator[Variant]:
+    """Probes as the window has them while a scene is at rest, if the scene can have probes.
+
+    Each picture updates them once, and goes on from the updates before it, whose time is not its
+    own. So the variant is no rival of the others.
+    """
+    if not _refuses_media(SceneFacts(scene), settings, "ddgi"):
+        _, changes = _of_method("ddgi", settings)
+        yield Variant(LIVE, settings_for(settings, **changes), HYSTERESIS)
 
 
 def _refuses_media(facts: SceneFacts, settings: Settings, method: str) -> bool:

@@ -7,6 +7,7 @@ here, a slow page gets fewer pictures, and nothing is rendered once the page is 
 import time
 from collections.abc import Callable
 from contextlib import suppress
+from math import inf
 from typing import Any
 
 from glrt.core.errors import GlrtError, UsageError
@@ -30,6 +31,7 @@ from glrt.view.viewport import orbit
 
 RATES = {True: 12, False: 30}  # pictures a second without a GPU, and with one
 MOST_WAITS = 4  # replies that wait for the error of a picture that is done: it may have none
+STILL = 0.5  # seconds of a still picture
 HABITS = Preferences()
 
 
@@ -53,6 +55,8 @@ class Live:
         self._target, self._shared, self._clock, self._at_rest = target, shared, clock, at_rest
         self._session: Session | None = None
         self._display: Display | None = None
+        self._content: object = None  # what the last picture was drawn from
+        self._asked: float | None = None  # when the page asked last, if it asks on and on
         self._forget()
 
     @property
@@ -66,6 +70,21 @@ class Live:
             if self._session is None or not self._session.samples:
                 raise UsageError("The picture has no sample yet: it gets them while it is shown.")
             return self._session.image()
+
+    def still(self) -> Reply | None:
+        """Render for about `STILL` seconds after the kernel is there; return the picture so far.
+
+        The next question of a page gets it, too. None where there is no picture.
+        """
+        found, end = None, inf
+        while self._clock() < end:
+            reply = self.answer({})
+            if reply.picture:
+                found, end = reply, min(end, self._clock() + STILL)
+            if reply.content["wait"] != 0:
+                break
+        self._content = None
+        return found
 
     def rest(self) -> None:
         """Release all OpenGL objects. The next question begins again, from the same view."""
@@ -106,8 +125,8 @@ class Live:
 
     def _forget(self) -> None:
         self._progress, self._problem = Progress(), ""
-        self._content: object = None  # what the last picture was drawn from
-        self._asked: float | None = None  # when the page asked last, if it asks on and on
+        self._content = None
+        self._asked = None
         self._rendered, self._waits = 0.0, 0
         self._pivot = self._state.scene.camera.look_at
 

@@ -1,5 +1,6 @@
 """The widget of notebooks: a `Live` behind the messages of its page. It needs the extra."""
 
+from base64 import b64encode
 from importlib.resources import files
 from typing import Any
 
@@ -50,6 +51,15 @@ class LivePicture(anywidget.AnyWidget):
         Raises UsageError if there is none yet, or only a coarse one of a moving camera.
         """
         return self._live.image()
+
+    def _repr_mimebundle_(self, **options: Any) -> tuple[dict[str, Any], dict[str, Any]]:
+        """Return the live picture and a still one, which pages show that have no kernel."""
+        bundle = super()._repr_mimebundle_(**options)
+        assert bundle is not None  # it has a view
+        data, metadata = bundle
+        if still := self._live.still():
+            data[still.content["type"]] = b64encode(still.picture or b"").decode()
+        return data, metadata
 
     def close(self) -> None:
         """Release the OpenGL objects and remove the picture from all pages."""

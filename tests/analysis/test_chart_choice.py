@@ -2,9 +2,11 @@
 
 import pytest
 
-from glrt.analysis.chart.choice import MOST_NAMED, MOST_SHOWN, called, shown
+from glrt.analysis.chart import page
+from glrt.analysis.chart.choice import MOST_NAMED, MOST_SHOWN, called, shown, times_to
 from glrt.analysis.chart.curves import LEVELS, Curve
 from glrt.analysis.chart.drawing import COLORS, MARKERS
+from glrt.analysis.variants import LIVE
 from tests.support.charted_curves import CHARTS, made, measured
 
 SCENES = sorted(file.stem for file in CHARTS.glob("*.csv"))
@@ -50,6 +52,16 @@ def test_a_front_of_many_curves_shows_those_that_are_the_fastest_over_most_error
     assert names(curves) == ["naive", "mis", "f1", "f3", "f5", "f6", "f7"]
 
 
+def test_live_probes_are_shown_where_they_are_named_and_are_never_the_fastest() -> None:
+    live = made(LIVE, (0.5, 0.05), bias=0.05)
+    curves = [made("naive", (90.0, 0.02)), made("mis", (50.0, 0.04)), live]
+    assert names(curves) == ["naive", "mis"]
+    assert names(curves, LIVE) == ["naive", "mis", LIVE]
+    assert [name for _, name, _ in times_to(curves, 0.1)] == ["mis", "naive"]
+    assert LIVE not in page._winner(curves, 0.1) + page._front(curves)
+    assert called("ddgi", ["ddgi, sobol", LIVE]) == "ddgi, sobol"
+
+
 def test_a_user_may_call_a_curve_by_one_of_its_names() -> None:
     every = ["naive = nee = mis", "mis, sobol", "ddgi, sobol", "phong = blinn"]
     assert called("mis", every) == "naive = nee = mis"
@@ -60,8 +72,8 @@ def test_a_user_may_call_a_curve_by_one_of_its_names() -> None:
 
 
 def test_each_curve_has_a_colour_and_a_marker_as_on_the_page() -> None:
-    page = (CHARTS.parents[2] / "glrt/analysis/chart_page.html").read_text()
-    light = page.splitlines()[1]
+    text = (CHARTS.parents[2] / "glrt/analysis/chart_page.html").read_text()
+    light = text.splitlines()[1]
     for number, color in enumerate(COLORS):
         assert f"--c{number}: {color};" in light
     assert len({*COLORS}) == len({*MARKERS}) == len(COLORS) == len(MARKERS) == MOST_SHOWN

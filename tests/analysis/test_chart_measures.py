@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from glrt.analysis.chart.experiment import Plan
 from glrt.analysis.chart.measure import Bench, of_variant
 from glrt.analysis.chart.rays import rays_of
 from glrt.analysis.reference import Reference
@@ -12,6 +13,8 @@ from glrt.image.sources import load
 from glrt.rendering.renderer import Renderer
 from glrt.settings import settings_for
 from tests.support.builders import box_of_quads, lamp, scene_of, sphere
+
+NAMES = "ddgi, live probes", "ddgi, sobol"
 
 
 @pytest.mark.slow
@@ -82,3 +85,24 @@ def test_a_denoised_variant_is_judged_by_what_it_shows(context: Context) -> None
     assert denoised.looks[-1].squared_error == squared != plain.looks[-1].squared_error
     noise = Reference(grey, grey, 1, 1).relative(np.square(shown.noise, dtype=np.float64))
     assert denoised.squared_bias == squared - noise
+
+
+@pytest.mark.slow
+def test_live_probes_settle_before_each_picture_and_are_updated_once_in_it(
+    context: Context,
+) -> None:
+    """Their light is near that of probes of their own, and one update costs fewer rays."""
+    scene = load("methods/diffuse")
+    plan = Plan(16, 2, 0.5, ("ddgi, live probes",))
+    live, own = ([it for it in plan.variants(scene) if it.name == name] for name in NAMES)
+    truth = np.ones((16, 16, 3))
+    bench = Bench(scene, [*live, *own], Reference(truth, truth, 1, 1), context)
+    rounds = [list(bench.round(number, 0.2))[-1] for number in range(2)]
+    bench.release()
+    errors = {
+        name: [run.looks[-1].squared_error for run in of_variant(rounds, name)] for name in NAMES
+    }
+    assert errors[NAMES[0]] == pytest.approx(errors[NAMES[1]], rel=0.05)
+    assert len({*errors[NAMES[0]]}) == 2, "another update for each round"
+    rays = rays_of(scene, own[0].settings, context)
+    assert 0 < rays.of_update() < rays.set / 8

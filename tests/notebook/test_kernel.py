@@ -105,6 +105,7 @@ def test_every_cell_of_the_notebook_runs(tmp_path: Path) -> None:
     }
     assert "application/vnd.jupyter.widget-view+json" in types
     assert "image/png" in types
+    assert "image/jpeg" in types, "a live picture leaves a still one in the notebook"
 
 
 def test_the_notebook_is_small_and_names_no_machine() -> None:

@@ -7,6 +7,7 @@ import pytest
 
 from glrt.core.errors import UsageError
 from glrt.notebook.live import MOST_WAITS, Live
+from glrt.notebook.live import STILL as AT_ONCE
 from glrt.notebook.shared_context import HOLD
 from glrt.rendering.renderer import Renderer
 from glrt.view.state.error_history import PAUSE
@@ -53,6 +54,20 @@ def test_pictures_of_a_moving_camera_are_coarse_if_they_take_long(live: Live, cl
     clock.now += STILL
     clock.step = 0.001
     assert codes(asked(live, 3)).shape == (16, 16, 3)
+
+
+def test_a_still_picture_has_full_size_and_is_the_first_that_a_page_gets(
+    live: Live, clock: Clock
+) -> None:
+    start = clock.now
+    still = live.still()
+    assert still
+    assert codes(still).shape == (16, 16, 3)
+    assert samples(still) > 4
+    assert clock.now - start < 3 * AT_ONCE
+    first = live.answer({})
+    assert samples(first) >= samples(still)
+    assert first.picture, "a page that comes later has seen nothing yet"
 
 
 def test_a_light_gets_brighter_without_losing_a_sample(live: Live) -> None:

@@ -1,5 +1,6 @@
 """The widget: it answers pages, and rests when the last one is closed."""
 
+from base64 import b64decode
 from types import SimpleNamespace
 from typing import Any
 
@@ -17,10 +18,14 @@ class Played:
         self.state = SimpleNamespace(settings=Settings(width=20, height=10), scene="a scene")
         self.asked: list[Any] = []
         self.rests = 0
+        self.has_still = True
 
     def answer(self, message: Any) -> Reply:
         self.asked.append(message)
         return Reply({"wait": 0.0}, b"picture" if len(self.asked) > 1 else None)
+
+    def still(self) -> Reply | None:
+        return Reply({"type": "image/jpeg"}, b"still") if self.has_still else None
 
     def rest(self) -> None:
         self.rests += 1
@@ -49,6 +54,15 @@ def test_the_page_gets_the_title_the_size_and_its_program(widget: Any) -> None:
     assert "export default { render }" in state["_esm"]
     assert ".glrt-show" in state["_css"]
     assert widget.scene == "a scene"
+
+
+def test_a_saved_notebook_shows_a_still_picture(widget: Any, live: Played) -> None:
+    data, _ = widget._repr_mimebundle_()
+    assert data["application/vnd.jupyter.widget-view+json"]["model_id"] == widget.model_id
+    assert b64decode(data["image/jpeg"]) == b"still"
+    live.has_still = False
+    data, _ = widget._repr_mimebundle_()
+    assert "image/jpeg" not in data
 
 
 def test_each_question_gets_a_reply_with_the_name_of_its_page(widget: Any, live: Played) -> None:

@@ -44,8 +44,8 @@ def called(wanted: str, names: Sequence[str]) -> str | None:
 
 
 def times_to(curves: Sequence[Curve], level: float) -> list[tuple[float, str, bool]]:
-    """Milliseconds to an error, name, and whether it was measured, fastest first."""
-    reached = [(curve.milliseconds_to(level), curve.name) for curve in curves]
+    """Milliseconds to an error, name, and whether it was measured, of rivals, fastest first."""
+    reached = [(it.milliseconds_to(level), it.name) for it in curves if it.is_rival]
     return sorted((time[0], name, time[1]) for time, name in reached if time)
 
 
@@ -59,7 +59,8 @@ def _spans(curves: Sequence[Curve]) -> list[tuple[str, float]]:
 
 def _steps(curves: Sequence[Curve]) -> Iterator[tuple[str, float]]:
     """Each point of the front: the name of its curve, and the logarithm of the range of errors."""
-    dots = [(p.milliseconds.value, p.error.value, c.name) for c in curves for p in c.points]
+    rivals = [curve for curve in curves if curve.is_rival]
+    dots = [(p.milliseconds.value, p.error.value, c.name) for c in rivals for p in c.points]
     before = None
     for place in front([dot[:2] for dot in dots]):
         _, error, name = dots[place]

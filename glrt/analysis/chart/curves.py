@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from glrt.analysis.chart.measure import Look, Round, Run, of_variant
+from glrt.analysis.variants import LIVE
 
 LEVELS = (0.1, 0.03, 0.01)  # relative errors at which methods are compared
 # 97.5 % quantiles of Student's t for 1, 2, ... degrees of freedom.
@@ -42,6 +43,11 @@ class Curve:
     points: tuple[Point, ...]
     slope: Interval | None  # of log error over log samples, where noise exceeds the bias
     bias: Interval  # relative RMS
+
+    @property
+    def is_rival(self) -> bool:
+        """Whether its times are all that its pictures take: not so for live probes."""
+        return self.name != LIVE
 
     @property
     def seen_bias(self) -> float:

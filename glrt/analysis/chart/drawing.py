@@ -81,7 +81,10 @@ def _draw(axes: Any, curves: Sequence[Curve], places: Places, few: Sequence[int]
     axes.xaxis.set_major_formatter("{x:g}")
     pairs = list(zip(curves, places, strict=True))
     dots = [
-        (x, p.error.value) for curve, xs in pairs for x, p in zip(xs, curve.points, strict=True)
+        (x, p.error.value)
+        for curve, xs in pairs
+        if curve.is_rival
+        for x, p in zip(xs, curve.points, strict=True)
     ]
     steps = [dots[place] for place in front(dots)]
     axes.step(*zip(*steps, strict=True), where="post", color=GREY, lw=5, alpha=0.5, zorder=1)

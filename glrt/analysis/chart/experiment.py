@@ -13,7 +13,7 @@ from glrt.analysis.chart.measure import Bench, Look, Round, Run
 from glrt.analysis.chart.rays import Rays, rays_of
 from glrt.analysis.chart.sights import Sight, sights_of
 from glrt.analysis.reference import Budget, Reference, reference_for
-from glrt.analysis.variants import Variant, variants_of
+from glrt.analysis.variants import LIVE, Variant, live_variant, variants_of
 from glrt.core import files
 from glrt.core.version import VERSION
 from glrt.gpu.context import Context
@@ -26,7 +26,7 @@ from glrt.settings import Settings, settings_for
 
 def key_of(scene: Scene, variants: Sequence[Variant], reference: Reference, place: str) -> str:
     """A hash of everything that rounds must have in common to be combined in one chart."""
-    ways = [(variant.name, variant.settings.model_dump(mode="json")) for variant in variants]
+    ways = [(it.name, it.settings.model_dump(mode="json"), it.hysteresis) for it in variants]
     truth = hashlib.sha256(reference.radiance.tobytes()).hexdigest()
     parts = [scene_to_dict(scene), ways, truth, place, flip.is_installed()]
     return hashlib.sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()[:32]
@@ -77,8 +77,13 @@ class Plan:
         return settings_for(frame_of(scene, self.height), sampler=SAMPLER)
 
     def variants(self, scene: Scene) -> list[Variant]:
-        """All variants of a scene; a machine's loop limit may leave some out."""
-        return variants_of(scene, self.settings(scene))
+        """All variants of a scene; a machine's loop limit may leave some out.
+
+        Live probes, which need many updates before each picture, are among them if they are named.
+        """
+        settings = self.settings(scene)
+        live = live_variant(scene, settings) if LIVE in self.named else ()
+        return [*variants_of(scene, settings), *live]
 
 
 @dataclass(frozen=True)
@@ -125,7 +130,7 @@ def measure_scene(
 
     budget = Budget(REFERENCE_ERROR, allowed)
     reference = reference_for(scene, settings, context, budget, report_reference)
-    rays = tuple(rays_of(scene, variant.settings, context) for variant in variants)
+    rays = tuple(_rays_of(scene, variant, context) for variant in variants)
     key = key_of(scene, variants, reference, place)
     rounds = load_rounds(rounds_file, key)
 
@@ -142,6 +147,11 @@ def measure_scene(
     title, found = scene.title or name, tuple(variants)
     measured = (reference, found, curves, rays, place)
     return Experiment(name, title, len(rounds), *measured, plan.named, sights)
+
+
+def _rays_of(scene: Scene, variant: Variant, context: Context) -> Rays:
+    rays = rays_of(scene, variant.settings, context)
+    return rays if variant.hysteresis is None else Rays(rays.sample, once=rays.of_update())
 
 
 def frame_of(scene: Scene, height: int) -> Settings:

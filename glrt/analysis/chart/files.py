@@ -34,6 +34,7 @@ def rows(experiment: Experiment) -> Iterator[dict[str, Any]]:
     dots = [
         (point.milliseconds.value, point.error.value, curve.name, point.samples)
         for curve in experiment.curves
+        if curve.is_rival
         for point in curve.points
     ]
     best = {dots[place][2:] for place in front([dot[:2] for dot in dots])}

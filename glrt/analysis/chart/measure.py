@@ -23,6 +23,7 @@ from glrt.settings import MAX_SAMPLES
 
 WARM_UP = 3  # dispatches before the first that is timed
 LEAST_SAMPLES = 32
+SETTLED = 100  # updates of live probes before a picture: they keep 5 % of where they began
 
 
 class Look(NamedTuple):
@@ -45,6 +46,14 @@ class Run(NamedTuple):
 Round = list[Run]
 
 
+class _Picture(NamedTuple):
+    """The picture that is shown, and its standard error by its own estimate, (H, W, 3) each."""
+
+    shown: NDArray[np.float32]
+    noise: NDArray[np.float32] | None  # None before two observations
+    is_denoised: bool = False
+
+
 class Bench:
     """The variants of a scene, compiled and warmed up, for any number of rounds."""
 
@@ -53,6 +62,7 @@ class Bench:
     ) -> None:
         """Compile every variant; errors are relative to `reference`."""
         self._reference = reference
+        self._live = {it.name: it.hysteresis for it in variants if it.hysteresis is not None}
         self._renderers = {
             variant.name: Renderer(scene, variant.settings, context, tier="baked")
             for variant in variants
@@ -72,9 +82,12 @@ class Bench:
         random.Random(number).shuffle(names)
         runs: Round = []
         for name in names:
-            self._renderers[name].update(seed=number + 1)
+            renderer = self._renderers[name]
+            if hysteresis := self._live.get(name):
+                _settle(renderer, hysteresis)
+            renderer.update(seed=number + 1, hysteresis=hysteresis)
             share = seconds / len(names)
-            runs.append(_run(name, self._renderers[name], self._reference, share, with_flip))
+            runs.append(_run(name, renderer, self._reference, share, with_flip))
             yield runs
 
     def pictures(self, name: str, samples: Sequence[int]) -> Iterator[Image]:
@@ -88,6 +101,15 @@ class Bench:
         """Release the resources of all renderers."""
         for renderer in self._renderers.values():
             renderer.release()
+
+
+def _settle(renderer: Renderer, hysteresis: float) -> None:
+    """Update live probes until little is left of the probes before; each picture updates once."""
+    renderer.render(1)  # with warm probes, if these are the first
+    renderer.update(hysteresis=hysteresis)
+    for _ in range(SETTLED):
+        renderer.restart()
+        renderer.render(1)
 
 
 def _run(
@@ -107,25 +129,29 @@ def _run(
         start = time.perf_counter()
         renderer.render(samples)
         middle = time.perf_counter()
-        image = renderer.image()
+        picture = _picture_of(renderer)
         filtering = time.perf_counter() - middle if is_denoised else 0.0
         spent += middle - start
-        if bool(image.denoising) == is_denoised:
-            squared = reference.squared_error(image.shown)
-            look = flip(image.shown, reference.radiance) if with_flip else None
+        if picture.is_denoised == is_denoised:
+            squared = reference.squared_error(picture.shown)
+            look = flip(picture.shown, reference.radiance) if with_flip else None
             looks.append(Look(samples, spent + filtering, squared, look))
         is_over = bool(looks) and 2 * spent > seconds and samples >= least
         if is_over or samples == MAX_SAMPLES:
-            noise = reference.relative(_variance(image))
+            assert picture.noise is not None  # it has two observations, and was denoised here
+            noise = reference.relative(np.square(picture.noise, dtype=np.float64))
             return Run(name, looks, looks[-1].squared_error - noise)
         samples *= 2
 
 
-def _variance(image: Image) -> NDArray[np.float64]:
-    """Variance of the picture that is shown, (H, W, 3), as the picture itself estimates it."""
-    noise = image.denoising.noise if image.denoising else image.stderr
-    assert noise is not None  # it was denoised here
-    return np.square(noise, dtype=np.float64)
+def _picture_of(renderer: Renderer) -> _Picture:
+    if renderer.probes.hysteresis is not None:  # no other picture is possible
+        with renderer.context.gl:
+            return _Picture(*renderer.picture(renderer.plan.weights))
+    image = renderer.image()
+    denoising = image.denoising
+    noise = denoising.noise if denoising else image.stderr
+    return _Picture(image.shown, noise, bool(denoising))
 
 
 def of_variant(rounds: Sequence[Round], name: str) -> list[Run]:

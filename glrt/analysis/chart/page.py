@@ -6,7 +6,8 @@ from typing import NamedTuple
 from glrt.analysis.chart.choice import BASE, MOST_SHOWN, times_to
 from glrt.analysis.chart.curves import LEVELS, Curve, Interval, front
 from glrt.analysis.chart.experiment import SAMPLER, Experiment
-from glrt.analysis.variants import LEAD
+from glrt.analysis.chart.measure import SETTLED
+from glrt.analysis.variants import LEAD, LIVE
 
 
 def percent(share: float) -> str:
@@ -72,6 +73,8 @@ def sentences(experiment: Experiment) -> Iterator[str]:
     yield from _biases(experiment.curves)
     yield _front(experiment.curves)
     yield from _slopes(experiment.curves)
+    if not all(curve.is_rival for curve in experiment.curves):
+        yield _LIVE
     yield _reference(experiment)
 
 
@@ -148,7 +151,8 @@ def _biases(curves: Sequence[Curve]) -> Iterator[str]:
 
 
 def _front(curves: Sequence[Curve]) -> str:
-    dots = [(p.milliseconds.value, p.error.value, c.name) for c in curves for p in c.points]
+    rivals = [curve for curve in curves if curve.is_rival]
+    dots = [(p.milliseconds.value, p.error.value, c.name) for c in rivals for p in c.points]
     names = [dots[place][2] for place in front([dot[:2] for dot in dots])]
     ordered = ", then ".join(f"`{name}`" for name in dict.fromkeys(names))
     return f"On the Pareto front are, from fast to slow, {ordered}."
@@ -163,6 +167,11 @@ def _slopes(curves: Sequence[Curve]) -> Iterator[str]:
         )
 
 
+_LIVE = (
+    f"`{LIVE}` are in their steady state: {SETTLED} updates before each picture are not in its "
+    "time. So it is compared with no other, and is not on the front; its bias contains the noise "
+    "of the probes."
+)
 _DOUBT = (
     " That error is not to be believed: few samples carry much of the light, and all errors here "
     "may be wrong by as much."

@@ -6,6 +6,7 @@ from typing import NamedTuple
 from glrt.gpu.context import Context
 from glrt.gpu.glsl import read
 from glrt.rendering.pipelines import Variant
+from glrt.rendering.probe_tracer import LOOKS, PUSHED, UPDATES
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
@@ -29,6 +30,10 @@ class Rays(NamedTuple):
         """Rays of `samples` samples per pixel, including those of probes."""
         sets = math.ceil(samples / self.block) if self.set else 0
         return samples * self.sample + sets * self.set + self.once
+
+    def of_update(self, looks: int = 1) -> float:
+        """Rays of an update of live probes: those for their light, and `looks` at distances."""
+        return self.set / UPDATES + self.once * looks / (PUSHED + 1 + LOOKS)
 
 
 def rays_of(scene: Scene, settings: Settings, context: Context) -> Rays:

@@ -60,7 +60,9 @@ def _axes(
         )
         for place, (curve, xs) in enumerate(zip(curves, places, strict=True))
     ]
-    lines.append(Line(FRONT, _front([dot for line in lines for dot in line.dots]), "front"))
+    pairs = zip(curves, lines, strict=True)
+    rivals = [dot for curve, line in pairs if curve.is_rival for dot in line.dots]
+    lines.append(Line(FRONT, _front(rivals), "front"))
     by_time = x_label.startswith("milliseconds")
     levels = [Level(level, _text(curves, level) if by_time else percent(level)) for level in LEVELS]
     return Axes(title, x_label, "relative RMS error", lines, levels, is_percent=True)

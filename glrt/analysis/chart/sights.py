@@ -67,7 +67,7 @@ def _plan(curve: Curve) -> tuple[str, list[int], float] | None:
 
     If none fits, the samples for MOST_SECONDS. None for curves that are biased.
     """
-    if curve.seen_bias or "denoised" in curve.name:
+    if curve.seen_bias or "denoised" in curve.name or not curve.is_rival:
         return None
     last = curve.points[-1]
     times = [curve.milliseconds_to(level) for level in LEVELS]

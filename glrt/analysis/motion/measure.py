@@ -18,7 +18,7 @@ from glrt.analysis.reference import Budget, Reference, reference_for
 from glrt.gpu.context import Context
 from glrt.rendering.history.temporal import Way
 from glrt.rendering.history.upsample import PAIR
-from glrt.rendering.probe_tracer import LOOKS, PUSHED, UPDATES
+from glrt.rendering.probe_tracer import PUSHED
 from glrt.scene.scene import Scene
 from glrt.settings import Settings, settings_for
 
@@ -169,5 +169,4 @@ def _of_probes(rays: Rays, one: Played, number: int, is_new: bool, frames: Frame
     """Rays from probes in a frame, per pixel; live ones are placed again when the eye moves."""
     if one.hysteresis is None or not number:
         return rays.set + rays.once if is_new else 0.0
-    looks = 1 + (PUSHED + 1) * (frames.name == "orbit")
-    return rays.set / UPDATES + rays.once * looks / (PUSHED + 1 + LOOKS)
+    return rays.of_update(1 + (PUSHED + 1) * (frames.name == "orbit"))
