@@ -117,7 +117,9 @@ def test_the_notebook_is_small_and_names_no_machine() -> None:
 
 def test_a_picture_refines_turns_and_is_closed(client: Any) -> None:
     run(client, "import glrt")
-    page = shown(client, "picture = glrt.show('cornell', width=48, height=48); picture")
+    page = shown(
+        client, "picture = glrt.show('cornell', width=48, height=48, samples=100_000); picture"
+    )
     first = begun(page)
     assert codes(first).shape == (48, 48, 3)
     for _ in range(5):

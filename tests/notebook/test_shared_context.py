@@ -12,7 +12,7 @@ from glrt.core.errors import ContextError
 from glrt.image.sources import load
 from glrt.notebook import shared_context
 from glrt.notebook.live import Live
-from glrt.notebook.shared_context import SharedContext
+from glrt.notebook.shared_context import HOLD, SharedContext
 from glrt.settings import settings_for
 
 
@@ -64,7 +64,7 @@ def test_pictures_are_answered_in_a_thread_while_cells_render_and_ask() -> None:
         while not is_over.is_set():
             for number, live in enumerate(lives):
                 reply = live.answer({"turn": [0.01, 0]} if answers[0] % 10 < 3 else {})
-                notices.extend([reply.content["notice"]] if reply.content["is_problem"] else [])
+                notices.extend([reply.content["notice"]] if reply.content.get("is_problem") else [])
                 answers[number] += 1
 
     thread = Thread(target=answer)
@@ -73,7 +73,7 @@ def test_pictures_are_answered_in_a_thread_while_cells_render_and_ask() -> None:
         bits = {render(room, 4, width=24, height=16).radiance.tobytes() for _ in range(8)}
         before = list(answers)
         lives[0].rest()
-        assert all(live.answer({}).content["wait"] == 0 for live in lives)
+        assert all(live.answer({}).content["wait"] in (0, HOLD) for live in lives)
         while answers[1] < before[1] + 4:
             assert thread.is_alive()
             sleep(0.05)
