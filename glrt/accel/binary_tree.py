@@ -6,8 +6,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from glrt.accel.binned_splits import Floats, Ints, are_right, halved
+from glrt.accel.binned_splits import Bools, Floats, Ints, are_right, halved
 from glrt.core.stages import report
+from glrt.core.threads import concurrently
 
 USUAL_DEPTH = 1.15  # mean depth of a leaf, over that in a tree whose leaves have all one depth
 PORTION = 1 << 16  # boxes that are divided at once: they fit into a cache, and memory is bounded
@@ -58,7 +59,7 @@ def build(lower: Floats, upper: Floats, halves: bool = False) -> BinaryTree:
     return BinaryTree(*_boxes(levels, left, item, lower, upper), left, item)
 
 
-def _without(level: _Level, gone: np.ndarray[tuple[int], np.dtype[np.bool_]]) -> _Level:
+def _without(level: _Level, gone: Bools) -> _Level:
     """Return the level without the nodes that are `gone`, and without their boxes."""
     kept = np.repeat(~gone, level.size)
     return _Level(level.node[~gone], level.size[~gone], level.items[kept])
@@ -68,19 +69,38 @@ def _children(level: _Level, left: Ints, lower: Floats, upper: Floats, halves: b
     """Return the next level: the two children of each node."""
     if not len(level.node):
         return level
-    node = np.repeat(np.arange(len(level.size)), level.size)
-    is_right = np.empty(len(node), bool)
-    for nodes, of in _portions(level):
-        boxes = level.items[of]
-        divided = halved if halves else are_right
-        given = level.start[nodes] - of.start, level.size[nodes], node[of] - nodes.start
-        is_right[of] = divided(*given, lower[boxes], upper[boxes])
-    right = np.bincount(node, is_right).astype(int)
+    start, items, right = level.start, np.empty_like(level.items), np.empty_like(level.size)
+    divided = halved if halves else are_right
+
+    def divide(part: tuple[slice, slice]) -> None:
+        nodes, of = part
+        size, boxes = level.size[nodes], level.items[of]
+        node = np.repeat(np.arange(len(size)), size)
+        first = start[nodes] - of.start
+        is_right = divided(first, size, node, lower[boxes], upper[boxes])
+        place, right[nodes] = _places(first, size, node, is_right)
+        items[of][place] = boxes
+
+    concurrently(divide, _portions(level))
     return _Level(
         np.column_stack([left, left + 1]).ravel(),
         np.column_stack([level.size - right, right]).ravel(),
-        level.items[np.argsort(2 * node + is_right, kind="stable")],
+        items,
     )
+
+
+def _places(start: Ints, size: Ints, node: Ints, is_right: Bools) -> tuple[Ints, Ints]:
+    """Return where boxes go so that those of both children follow each other, in their order.
+
+    The second array has the number of boxes of each right child.
+    """
+    passed: Ints = np.cumsum(is_right)  # boxes of right children, up to and with each
+    before: Ints = passed[start] - is_right[start]
+    right = passed[start + size - 1] - before
+    rank: Ints = passed - before[node]
+    place = np.arange(len(node)) - rank  # of boxes of left children
+    to_right = (start + size - right)[node] + rank - 1
+    return np.where(is_right, to_right, place), right
 
 
 def _portions(level: _Level) -> Iterator[tuple[slice, slice]]:

@@ -1,9 +1,9 @@
 """Divide boxes between the children of nodes, for all nodes of a level at once.
 
-Splits minimise the binned surface area heuristic (Wald, "On Fast Construction of SAH-Based Bounding
-Volume Hierarchies", 2007): the box centres of a node are sorted into BINS bins along each axis, and
-the node is split between the two bins where surface area times number of boxes, summed over both
-sides, is lowest.
+Splits minimise the surface area heuristic: surface area times number of boxes, summed over both
+sides (Wald, "On Fast Construction of SAH-Based Bounding Volume Hierarchies", 2007). The box centres
+of a node are sorted into BINS bins along each axis, and the node is split between two bins. The
+boxes of a node with FEW or fewer are sorted themselves.
 """
 
 import numpy as np
@@ -14,6 +14,7 @@ Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
 
 BINS = 16  # along each axis
+FEW = 8  # boxes
 
 
 def are_right(start: Ints, size: Ints, node: Ints, lower: Floats, upper: Floats) -> Bools:
@@ -23,58 +24,109 @@ def are_right(start: Ints, size: Ints, node: Ints, lower: Floats, upper: Floats)
     (n,), is the node of each box. Both children of a node with two or more boxes get at least one.
     A node whose centres coincide is divided into halves.
     """
-    is_right: Bools = np.arange(len(node)) > start[node]
-    large = size > 2  # with two boxes, each is a child
-    if not large.any():
-        return is_right
-    kept = np.repeat(large, size)
-    size, node = size[large], np.repeat(np.arange(int(large.sum())), size[large])
-    lower, upper, start = lower[kept], upper[kept], np.cumsum(size) - size
-    centre = lower + upper
-    low = np.minimum.reduceat(centre, start)
-    extent = np.maximum.reduceat(centre, start) - low
-    scale = np.divide(BINS, extent, out=np.zeros_like(extent), where=extent > 0)
-    bins = np.minimum((centre - low[node]) * scale[node], BINS - 1).astype(np.int8)
-    costs = np.stack(
-        [_split_costs(len(size), node, bins[:, axis], lower, upper) for axis in range(3)], 1
-    ).reshape(len(size), -1)
-    best = costs.argmin(axis=1)
-    axis, place = np.divmod(best, BINS - 1)
-    rank = np.arange(len(node)) - start[node]
-    in_half = 2 * rank >= size[node]
-    has_split = np.isfinite(costs.min(axis=1))
-    chosen = np.take_along_axis(bins, axis[node][:, None], 1)[:, 0] > place[node]
-    is_right[kept] = np.where(has_split[node], chosen, in_half)
+    is_right: Bools = np.arange(len(node)) > start[node]  # of two boxes, each is a child
+    few = np.flatnonzero((size > 2) & (size <= FEW))
+    if len(few):
+        number = np.arange(FEW)
+        is_there = number < size[few, None]
+        rows = start[few, None] + np.where(is_there, number, 0)
+        is_right[rows[is_there]] = _of_few(is_there, lower[rows], upper[rows])[is_there]
+    many = size > FEW
+    if many.any():
+        kept = np.repeat(many, size)
+        size, node = size[many], np.repeat(np.arange(int(many.sum())), size[many])
+        is_right[kept] = _of_many(np.cumsum(size) - size, size, node, lower[kept], upper[kept])
     return is_right
 
 
-def _split_costs(nodes: int, node: Ints, bins: Ints, lower: Floats, upper: Floats) -> Floats:
-    """Return surface area times number of boxes, summed over both sides of each split.
+def _of_few(is_there: Bools, lower: Floats, upper: Floats) -> Bools:
+    """Return whether boxes are right; a row holds the boxes of a node, (nodes, FEW, 3).
 
-    The splits lie along one axis. Shape (nodes, BINS - 1); infinite where a side has no boxes.
+    Boxes are sorted along each axis, those that are not there to the end.
     """
-    key = node * BINS + bins
-    count = np.bincount(key, minlength=nodes * BINS).reshape(nodes, BINS)
-    low = np.full((3, nodes, BINS), np.inf)
-    high = np.full((3, nodes, BINS), -np.inf)
+    number, row = is_there.sum(axis=1), np.arange(len(lower))
+    low = np.where(is_there[..., None], lower, np.inf).transpose(2, 1, 0)
+    high = np.where(is_there[..., None], upper, -np.inf).transpose(2, 1, 0)
+    centre = np.where(is_there[..., None], lower + upper, np.inf).transpose(2, 0, 1)
+    count = is_there.T.astype(int)
+    order = np.argsort(centre, axis=2, kind="stable")  # (3, nodes, FEW)
+    along = np.take_along_axis(centre, order, 2)
+    costs: Floats = np.empty((3, FEW - 1, len(row)))
     for axis in range(3):
-        np.minimum.at(low[axis].ravel(), key, lower[:, axis])
-        np.maximum.at(high[axis].ravel(), key, upper[:, axis])
-    left = _cumulative_costs(count, low, high)[:, :-1]
-    right = _cumulative_costs(count[:, ::-1], low[..., ::-1], high[..., ::-1])[:, -2::-1]
+        sorted_ = order[axis].T
+        costs[axis] = _costs(count, low[:, sorted_, row], high[:, sorted_, row])
+        costs[axis][~(along[axis, :, 1:] > along[axis, :, :-1]).T] = np.inf
+    costs = costs.reshape(-1, len(row))
+    axis, place = np.divmod(costs.argmin(axis=0), FEW - 1)
+    has_split = np.isfinite(costs.min(axis=0))
+    place = np.where(has_split, place, (number + 1) // 2 - 1)
+    rank = np.empty((len(row), FEW), int)
+    np.put_along_axis(rank, order[axis, row], np.arange(FEW)[None], 1)
+    is_right: Bools = rank > place[:, None]
+    return is_right
+
+
+def _of_many(start: Ints, size: Ints, node: Ints, lower: Floats, upper: Floats) -> Bools:
+    """Return the same as `are_right`, by bins."""
+    low, high = np.ascontiguousarray(lower.T), np.ascontiguousarray(upper.T)
+    centre = low + high
+    least = np.minimum.reduceat(centre, start, axis=1)
+    extent = np.maximum.reduceat(centre, start, axis=1) - least
+    scale = np.divide(BINS, extent, out=np.zeros_like(extent), where=extent > 0)
+    costs: Floats = np.empty((3, BINS - 1, len(size)))
+    bins = np.empty(centre.shape, np.int8)
+    for axis in range(3):
+        along = (centre[axis] - least[axis][node]) * scale[axis][node]
+        bins[axis] = np.minimum(along, BINS - 1)
+        costs[axis] = _costs(*_filled(len(size), node, bins[axis], low, high))
+    costs = costs.reshape(-1, len(size))
+    axis, place = np.divmod(costs.argmin(axis=0), BINS - 1)
+    has_split = np.isfinite(costs.min(axis=0))
+    row = np.arange(len(node))
+    in_half = 2 * (row - start[node]) >= size[node]
+    is_right: Bools = np.where(has_split[node], bins[axis[node], row] > place[node], in_half)
+    return is_right
+
+
+def _filled(
+    nodes: int, node: Ints, bins: NDArray[np.int8], lower: Floats, upper: Floats
+) -> tuple[Ints, Floats, Floats]:
+    """Return number of boxes, (BINS, nodes), and corners, (3, BINS, nodes), of the bins of nodes.
+
+    `lower` and `upper` are (3, n).
+    """
+    key = bins * np.int64(nodes) + node
+    count = np.bincount(key, minlength=nodes * BINS).reshape(BINS, nodes)
+    low, high = np.full((3, BINS * nodes), np.inf), np.full((3, BINS * nodes), -np.inf)
+    for axis in range(3):
+        np.minimum.at(low[axis], key, lower[axis])
+        np.maximum.at(high[axis], key, upper[axis])
+    return count, low.reshape(3, BINS, nodes), high.reshape(3, BINS, nodes)
+
+
+def _costs(count: Ints, low: Floats, high: Floats) -> Floats:
+    """Return the heuristic of splits between parts of nodes, (parts - 1, nodes).
+
+    `count` is (parts, nodes), the corners are (3, parts, nodes). Infinite where a side has no box.
+    """
+    left = _cumulative_costs(count, low, high)[:-1]
+    right = _cumulative_costs(count[::-1], low[:, ::-1], high[:, ::-1])[-2::-1]
     cost: Floats = left + right
     return cost
 
 
 def _cumulative_costs(count: Ints, low: Floats, high: Floats) -> Floats:
-    """Return surface area times number of all boxes in bins 0 to k, for each k; inf without boxes.
-
-    `count` and the result are (nodes, BINS), the corners `low` and `high` (3, nodes, BINS).
-    """
-    total = np.cumsum(count, axis=1)
-    size = np.maximum.accumulate(high, axis=2) - np.minimum.accumulate(low, axis=2)
+    """Return surface area times number of boxes of parts 0 to k, for each k; inf without boxes."""
+    total = np.zeros(count.shape[1], int)
+    least, most = np.full(low[:, 0].shape, np.inf), np.full(low[:, 0].shape, -np.inf)
+    costs = np.empty(count.shape)
     with np.errstate(invalid="ignore"):  # without boxes the size is -inf
-        return np.where(total > 0, surface(size) * total, np.inf)
+        for part in range(len(count)):
+            total += count[part]
+            np.minimum(least, low[:, part], out=least)
+            np.maximum(most, high[:, part], out=most)
+            costs[part] = np.where(total > 0, surface(most - least) * total, np.inf)
+    return costs
 
 
 def halved(start: Ints, size: Ints, node: Ints, lower: Floats, upper: Floats) -> Bools:

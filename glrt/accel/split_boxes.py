@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from glrt.accel.binned_splits import Floats, Ints, surface
+from glrt.core.threads import concurrently
 
 PORTION = 1 << 16  # pairs that are processed together, so that memory is bounded
 MOST_MORE = 0.2  # boxes that may be added, as a share of the pairs
@@ -27,7 +28,7 @@ class Boxes(NamedTuple):
 def boxes_of(corners: Floats) -> Boxes:
     """Return boxes around pairs with the corners a b c d, (m, 4, 3): triangles a b c and a c d."""
     portions = np.array_split(corners, -(-len(corners) // PORTION))
-    flat = np.concatenate([_shadows(some) for some in portions])
+    flat = np.concatenate(concurrently(_shadows, portions))
     low, high = corners.min(axis=1), corners.max(axis=1)
     boxes = Boxes(low, high, np.arange(len(corners)))
     least = _LEAST_WASTE * float(np.median(surface((high - low).T)))

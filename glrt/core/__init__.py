@@ -8,6 +8,7 @@ Modules, each importing only what stands above it:
 - resources: folders of shaders and scenes, and of the user
 - files: atomic writes: a file is complete or absent
 - web_page: pages that need no network
+- threads: parts of a computation in several threads
 - stages: stages of long work, reported to who waits for it
 - memo: cache of results by the identity of the arguments
 """
