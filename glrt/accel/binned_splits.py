@@ -42,7 +42,7 @@ def are_right(start: Ints, size: Ints, node: Ints, lower: Floats, upper: Floats)
 def _of_few(is_there: Bools, lower: Floats, upper: Floats) -> Bools:
     """Return whether boxes are right; a row holds the boxes of a node, (nodes, FEW, 3).
 
-    Boxes are sorted along each axis, those that are not there to the end.
+    Boxes are sorted along each axis; absent ones come last.
     """
     number, row = is_there.sum(axis=1), np.arange(len(lower))
     low = np.where(is_there[..., None], lower, np.inf).transpose(2, 1, 0)
