@@ -28,7 +28,8 @@ from glrt.view.start.thumbnails import COLUMNS, FILE, TILE
 
 Codes = NDArray[np.uint8]  # (H, W, 3) sRGB
 
-SAMPLES = 256
+SAMPLES = 1024
+BACK = 32  # sRGB code of a tile beyond its picture
 MOST_BYTES = 250_000
 QUALITIES = (90, 85, 80, 75, 70, 65, 60)
 
@@ -51,22 +52,22 @@ def _write(data: bytes, file: Path) -> None:
 
 
 def rendered(scenes: Mapping[str, Scene], samples: int) -> Iterator[Codes]:
-    """Render a tile of each scene, without its noise, cut to the shape of TILE."""
+    """Render a tile of each scene, without its noise, whole and as large as TILE allows."""
     context = open_context()
     for name, scene in scenes.items():
         print(name, file=sys.stderr, flush=True)
-        sizes: dict[str, Any] = dict(zip(("width", "height"), covering(scene), strict=True))
+        sizes: dict[str, Any] = dict(zip(("width", "height"), fitting(scene), strict=True))
         renderer = Renderer(scene, None, context, samples=samples, denoise="auto", **sizes)
         try:
-            yield cut(codes_of(renderer.render().image()))
+            yield framed(codes_of(renderer.render().image()))
         finally:
             renderer.release()
 
 
-def covering(scene: Scene) -> tuple[int, int]:
-    """Return the smallest size in pixels with the aspect of a scene that covers TILE."""
+def fitting(scene: Scene) -> tuple[int, int]:
+    """Return the largest size in pixels with the aspect of a scene that fits into TILE."""
     width, height = scene.render.width, scene.render.height
-    scale = max(TILE[0] / width, TILE[1] / height)
+    scale = min(TILE[0] / width, TILE[1] / height)
     return round(scale * width), round(scale * height)
 
 
@@ -81,10 +82,13 @@ def codes_of(image: Picture) -> Codes:
             return np.asarray(picture.convert("RGB"))
 
 
-def cut(picture: Codes) -> Codes:
-    """Return the middle of a picture, TILE in size."""
-    left, top = (picture.shape[1] - TILE[0]) // 2, (picture.shape[0] - TILE[1]) // 2
-    return picture[top : top + TILE[1], left : left + TILE[0]]
+def framed(picture: Codes) -> Codes:
+    """Return a picture in the middle of a tile, (height, width, 3) of TILE."""
+    height, width = picture.shape[:2]
+    left, top = (TILE[0] - width) // 2, (TILE[1] - height) // 2
+    tile = np.full((TILE[1], TILE[0], 3), BACK, np.uint8)
+    tile[top : top + height, left : left + width] = picture
+    return tile
 
 
 def sheet(tiles: Sequence[Codes], titles: Mapping[str, str]) -> bytes:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from bench.thumbnails import SAMPLES, covering, rendered, sheet
+from bench.thumbnails import BACK, SAMPLES, fitting, framed, rendered, sheet
 from glrt.core.resources import folder
 from glrt.image.sources import load
 from glrt.scene.scenefile.catalog import scene_names
@@ -33,14 +33,19 @@ def test_tiles_stand_in_rows_with_their_titles() -> None:
         assert np.abs(middle.astype(int) - int(color)).max() <= 2
 
 
-def test_a_tile_is_covered_by_the_smallest_picture_of_the_aspect_of_its_scene() -> None:
+def test_a_tile_shows_the_whole_picture_in_its_middle() -> None:
     scene = load("cornell")
-    for size, wanted in (((64, 64), (224, 224)), ((640, 160), (672, 168)), ((50, 100), (224, 448))):
+    for size, wanted in (((64, 64), (168, 168)), ((640, 160), (224, 56)), ((50, 100), (84, 168))):
         width, height = size
         shaped = scene.model_copy(
             update={"render": scene.render.model_copy(update={"width": width, "height": height})}
         )
-        assert covering(shaped) == wanted
+        assert fitting(shaped) == wanted
+        tile = framed(np.full((wanted[1], wanted[0], 3), 200, np.uint8))
+        assert tile.shape == (TILE[1], TILE[0], 3)
+        assert (tile == 200).all(axis=2).sum() == wanted[0] * wanted[1]
+        is_shown = tile[:, :, 0] != BACK
+        assert (is_shown == is_shown[::-1, ::-1]).all()
 
 
 @pytest.mark.slow
@@ -49,7 +54,7 @@ def test_the_thumbnail_of_a_scene_shows_what_a_render_shows(name: str) -> None:
     with Image.open(folder("scenes") / FILE) as picture:
         names = list(json.loads(picture.info["comment"]))
         codes = np.asarray(picture.convert("RGB")).astype(int)
-    (tile,) = rendered({name: load(name)}, SAMPLES // 2)
+    (tile,) = rendered({name: load(name)}, SAMPLES // 4)
     row, column = divmod(names.index(name), COLUMNS)
     kept = codes[row * TILE[1] :, column * TILE[0] :][: TILE[1], : TILE[0]]
     assert np.abs(kept - tile).mean() < 4  # of 255; other scenes are off by 30 and more
