@@ -16,6 +16,7 @@ from glrt.scene.values import Vector
 from glrt.view.compared_picture import Pair
 from glrt.view.edits.scene_edits import found_again
 from glrt.view.edits.state_differences import change_text
+from glrt.view.export.exports import Exports
 from glrt.view.file_watch import Watch
 from glrt.view.files import Files
 from glrt.view.messages import Messages, Question, nothing
@@ -46,6 +47,7 @@ class App(Selection):
     preferences_file: Path
     messages: Messages
     files: Files = field(init=False)
+    exports: Exports = field(init=False)
     source: InitVar[str]  # what was opened: a path, or the name of a scene that comes with glrt
     pace: FrameBudget
     pivot: Vector
@@ -92,6 +94,7 @@ class App(Selection):
         self.files = Files(
             self.session, self.messages, source, recent, self.show_scene, self.add_model, rules
         )
+        self.exports = Exports(self.files)
 
     def prefer(self, preferences: Preferences) -> None:
         """Replace the preferences; `keep_preferences` writes them."""
@@ -112,8 +115,12 @@ class App(Selection):
         self.shows_start = False
 
     def follow_files(self, now: float) -> None:
-        """Reload the scene file or the shaders if another program has changed them."""
+        """Reload the scene file or the shaders if another program has changed them.
+
+        Report what other processes have finished.
+        """
         self.files.follow(now)
+        self.exports.follow()
         if self.shaders.has_changed(now):
             self.reload_shaders()
 
@@ -157,6 +164,8 @@ class App(Selection):
         """Close what lies over the window, give up a scene that is read, or leave the paths."""
         if self.shows_keys:
             self.shows_keys = False
+        elif self.exports.is_open:
+            self.exports.is_open = False
         elif self.files.aside.opening:
             self.files.aside.end()
         elif self.shows_start:
@@ -243,6 +252,16 @@ class App(Selection):
         except GlrtError as error:  # no room for a second film, or a shader with an error
             self.show.view = "picture"
             self.messages.complain(str(error))
+
+    def release(self) -> None:
+        """End other processes and threads, and release OpenGL: the window closes."""
+        self.exports.end()
+        self.pair.go_on(False)
+        self.show.release()
+        self.paths.release()
+        self.silhouette.release()
+        self.files.dialogs.close()
+        self.session.release()
 
     def restart(self) -> None:
         """Restart the picture and its figures."""

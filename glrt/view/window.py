@@ -19,6 +19,7 @@ from glrt.scene.scene import Scene
 from glrt.settings import Denoise, Settings, settings_for
 from glrt.view.app import App
 from glrt.view.bars.framed import draw_picture
+from glrt.view.boxes.export_box import draw_export
 from glrt.view.event_wait import EventWait
 from glrt.view.file_watch import Watch
 from glrt.view.messages import Messages
@@ -227,7 +228,8 @@ class Window:
         """Return the texts that appear or disappear without an event."""
         messages = self.app.messages
         told = self.app.session.problem, messages.recent(now), messages.question
-        return *told, self.app.files.aside.text, len(self.recovery.offers), FINDER.is_marking
+        work = self.app.files.aside.text, self.app.exports.text(now)
+        return *told, *work, len(self.recovery.offers), FINDER.is_marking
 
     def _keep(self, now: float) -> None:
         """Write changed preferences soon, not only at the end: a window may be killed."""
@@ -239,6 +241,7 @@ class Window:
         """Draw the popups above the panels: tour, questions and file dialog."""
         if not self.app.shows_start:
             draw_tour(self.app)
+        draw_export(self.app)
         draw_key_overlay(self.app)
         self._palette.draw(self.app)
         draw_recovery(self.recovery)
@@ -266,13 +269,8 @@ class Window:
     def _close(self) -> None:
         self.recovery.end(is_interrupted=self._interruption.signal is not None)
         self.app.keep_preferences()
-        self.app.pair.go_on(False)
-        self.app.show.release()
         self._start.release()
-        self.app.paths.release()
-        self.app.silhouette.release()
-        self.app.files.dialogs.close()
-        self.app.session.release()
+        self.app.release()
 
 
 def _shown(gl: moderngl.Context, denoise: Denoise) -> PictureView:

@@ -44,6 +44,8 @@ COMMANDS: dict[Action, Callable[[App], object]] = {  # command of each action
     "save_scene": lambda app: app.files.save_again(),
     "save_scene_as": lambda app: app.files.browse_scene(),
     "save": lambda app: app.files.save_picture(),
+    "export": lambda app: app.exports.toggle(),
+    "copy_picture": lambda app: app.exports.copy_picture(),
     "quit": lambda app: app.files.close(app.leave),
 }
 ANYWHERE: tuple[Action, ...] = (  # also on the start screen, which hides what others change

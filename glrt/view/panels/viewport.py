@@ -85,6 +85,7 @@ def notices(app: App) -> list[str]:
     opens = app.files.aside.text
     lines = (
         f"{opens}; Escape cancels" if opens else "",
+        app.exports.text(time.perf_counter()),
         app.show.notice(app.session),
         notice_of_lag(app.session.lag),
         paths_text(app),
