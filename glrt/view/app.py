@@ -16,6 +16,7 @@ from glrt.scene.values import Vector
 from glrt.view.compared_picture import Pair
 from glrt.view.edits.scene_edits import found_again
 from glrt.view.edits.state_differences import change_text
+from glrt.view.edits.texture_images import is_texture
 from glrt.view.export.exports import Exports
 from glrt.view.file_watch import Watch
 from glrt.view.files import Files
@@ -61,6 +62,7 @@ class App(Selection):
     fill_screen: Callable[[], object] = nothing  # enters the full screen, or leaves it
     rectangle: Rectangle = (0.0, 0.0, 1.0, 1.0)  # of the picture on the screen, in pixels
     zoom: Zoom = FIT
+    dropped: Path | None = None  # image that waits for the frame that knows where the mouse is
     inspects: bool = False  # whether the values of the pixel under the mouse are shown
     handles: Literal["move", "turn"] = "move"  # what those of the selected object do
     is_picture_alone: bool = False  # whether the panels are hidden
@@ -113,6 +115,13 @@ class App(Selection):
         if self.shows_start and not self.session.renderer:
             self.session.history.forget()  # the scene before was never seen
         self.shows_start = False
+
+    def drop(self, path: str) -> None:
+        """Take a file that was dropped on the window; an image goes to what is under the mouse."""
+        if not self.shows_start and is_texture(Path(path)):
+            self.dropped = Path(path)
+        else:
+            self.files.drop(path)
 
     def follow_files(self, now: float) -> None:
         """Reload the scene file or the shaders if another program has changed them.

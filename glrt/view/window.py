@@ -180,7 +180,7 @@ class Window:
         if self._later:
             self.app.files.aside.begin(*self._later)
             self.app.files.aside.refuse = self._refuse
-        self._native = Native(self.app.files.drop)
+        self._native = Native(self.app.drop)
         self.app.fill_screen = self._native.toggle_full_screen
         self.recovery = Recovery(self.app.files, recovery_folder())
         handle_lost_display(self.recovery.last_words)
@@ -228,7 +228,7 @@ class Window:
         """Return the texts that appear or disappear without an event."""
         messages = self.app.messages
         told = self.app.session.problem, messages.recent(now), messages.question
-        work = self.app.files.aside.text, self.app.exports.text(now)
+        work = self.app.files.aside.text, self.app.exports.text(now), self.app.dropped
         return *told, *work, len(self.recovery.offers), FINDER.is_marking
 
     def _keep(self, now: float) -> None:

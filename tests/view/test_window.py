@@ -138,6 +138,7 @@ SLOW = (  # half a second each, or more
     "a_film_of_a_turntable_is_exported",
     "what_is_wrong_with_an_export_is_said_where_it_is_typed",
     "the_box_fits_a_small_window",
+    "an_image_dropped_on_an_object_becomes_its_color",
     "undo_redo_and_pause_stand_in_the_bar_and_say_why_they_do_nothing",
 )
 
