@@ -11,6 +11,7 @@ from glrt.gpu.glsl import files_reread
 from glrt.image.sources import STRICT, FileRules
 from glrt.process.load import LoadMeter
 from glrt.rendering.history.temporal import Way
+from glrt.scene.camera import Camera
 from glrt.scene.scene import Scene
 from glrt.scene.values import Vector
 from glrt.view.compared_picture import Pair
@@ -62,6 +63,7 @@ class App(Selection):
     fill_screen: Callable[[], object] = nothing  # enters the full screen, or leaves it
     rectangle: Rectangle = (0.0, 0.0, 1.0, 1.0)  # of the picture on the screen, in pixels
     zoom: Zoom = FIT
+    kept_views: dict[str, dict[int, Camera]] = field(default_factory=dict)  # by what was opened
     dropped: Path | None = None  # image that waits for the frame that knows where the mouse is
     inspects: bool = False  # whether the values of the pixel under the mouse are shown
     handles: Literal["move", "turn"] = "move"  # what those of the selected object do

@@ -139,6 +139,9 @@ SLOW = (  # half a second each, or more
     "what_is_wrong_with_an_export_is_said_where_it_is_typed",
     "the_box_fits_a_small_window",
     "an_image_dropped_on_an_object_becomes_its_color",
+    "the_scene_is_seen_from_its_sides",
+    "views_are_kept_and_come_back_by_digits",
+    "cameras_of_a_file_are_in_the_menu",
     "undo_redo_and_pause_stand_in_the_bar_and_say_why_they_do_nothing",
 )
 

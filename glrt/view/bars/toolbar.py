@@ -8,6 +8,7 @@ from imgui_bundle import ImVec2, hello_imgui, imgui
 from imgui_bundle import icons_fontawesome_4 as icons
 
 from glrt.view.app import App
+from glrt.view.bars.camera_menu import draw_camera_menu, open_camera_menu
 from glrt.view.controls import Control
 from glrt.view.panels.compare import VIEW
 from glrt.view.panels.panel import SETTINGS
@@ -23,7 +24,6 @@ BUTTONS: dict[str, Action] = {
     "undo": "undo",
     "redo": "redo",
     "pause": "pause",
-    "home": "home",
     "fit": "fit",
     "find": "palette",
     "keys": "keys",
@@ -34,7 +34,7 @@ _NO_UNDO = "Nothing to undo: nothing was edited since the scene was opened"
 _NO_REDO = "Nothing to redo: nothing was undone since the last edit"
 _ALSO_GREY = int(imgui.HoveredFlags_.allow_when_disabled)
 _ICON = 1.1  # em, of the widest of them
-_WIDTH = 6.0  # em, of a list or a slider
+_WIDTH = 5.6  # em, of a list or a slider
 
 
 def draw_toolbar(app: App) -> None:
@@ -42,6 +42,7 @@ def draw_toolbar(app: App) -> None:
     line = _Line()
     for text, action in BUTTONS.items():
         line.draw(_width_of(text), partial(_button, app, text, action))
+    line.draw(_width_of("camera"), partial(_camera, app))
     _choice(line, VIEW, app.show.view, partial(_look, app))
     for name in CHOICES:
         _choice(
@@ -87,6 +88,14 @@ def _button(app: App, text: str, action: Action) -> None:
         keys = " or ".join(map(label, app.preferences.bindings[action]))
         told = _told(app, action)
         explain(f"{told} ({keys})" if keys else told)
+
+
+def _camera(app: App) -> None:
+    """Draw the button of the menu of views, and the menu."""
+    if imgui.button("camera"):
+        open_camera_menu()
+    draw_camera_menu(app)
+    explain("See a side of the scene, a view that was kept, or by a camera of a file")
 
 
 def _is_useful(app: App, action: Action) -> bool:

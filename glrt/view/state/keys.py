@@ -13,6 +13,7 @@ Action = (
     | Literal["duplicate", "delete", "open", "save_scene", "save_scene_as", "save", "quit"]
     | Literal["export", "copy_picture"]
 )
+MOST_VIEWS = 9  # that are kept, each by a digit: Ctrl keeps it, Alt goes back to it
 Bindings = dict[Action, tuple[str, ...]]
 
 DEFAULTS: Bindings = {
