@@ -32,7 +32,7 @@ from glrt.view.panels.key_table import draw_key_overlay
 from glrt.view.panels.layout import Shares
 from glrt.view.panels.panel import draw_panel
 from glrt.view.panels.plots import draw_figures
-from glrt.view.panels.shortcuts import draw_keys
+from glrt.view.panels.shortcuts import COMMANDS, draw_keys
 from glrt.view.panels.tour import draw_tour
 from glrt.view.recovery.headers import recovery_folder
 from glrt.view.recovery.keeper import Recovery
@@ -249,12 +249,12 @@ class Window:
         self.app.files.dialogs.poll(is_drawn=True)
 
     def _may_close(self) -> bool:
-        """Whether the window may close at once; otherwise ask about unsaved edits."""
-        is_agreed = not self.app.files.is_changed
+        """Whether the window may close at once; else ask about an export, and unsaved edits."""
+        is_agreed = not (self.app.files.is_changed or self.app.exports.job)
         if is_agreed:
             self._native.leave_full_screen()
         else:
-            self.app.files.close(self.app.leave)
+            COMMANDS["quit"](self.app)
         return is_agreed
 
     def _refuse(self, error: GlrtError) -> None:

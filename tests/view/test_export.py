@@ -43,6 +43,7 @@ def test_a_film_is_ordered_by_its_frames() -> None:
         *(({"until": "error", "error": text}, "error") for text in ("0", "nan", "101 %", "a", "")),
         *(({"kind": "film", "rate": text}, "frames a second") for text in ("0", "inf", "x")),
         ({"kind": "film", "frames": "0"}, "frames"),
+        ({"denoise": "auto", "samples": "63"}, "denoise: it needs 64"),
         ({"picture": ""}, "no name"),
         ({"picture": "a.bmp"}, ".png, .exr"),
         ({"kind": "film", "film": "a.avi"}, ".webp"),

@@ -16,6 +16,7 @@ from glrt.view.viewport.sides import SIDES, Ball, ball_of, seen_from
 from tests.scene.test_file_cameras import FOV, cameras
 from tests.support.builders import box, disk, plane, scene_of, sphere
 from tests.support.gltf_files import Builder, square
+from tests.support.meshes import mesh, quads
 
 MATTE = {"m": {"type": "lambertian", "color": [0.5, 0.5, 0.5]}}
 SQUARE = 1.0  # width over height
@@ -34,13 +35,13 @@ def test_the_ball_is_around_what_is_shown_and_ends() -> None:
 
 
 def test_a_mesh_that_is_turned_is_in_the_ball() -> None:
-    scene = load("painted")
-    ball = ball_of(scene)
+    """A strip along x, turned so that it lies along y from x = 4 to x = 5."""
+    strip = quads([[0, 0, 0], [10, 0, 0], [0, 1, 0]])
+    turned = mesh(strip, "m", rotate=[0, 0, 90], translate=[5, 0, 0])
+    ball = ball_of(scene_of([turned], MATTE))
     assert ball
-    for shape in scene.objects:
-        if math.isfinite(shape.reach):
-            corners = shape.polygons.reshape(-1, 3)
-            assert (np.linalg.norm(corners - ball.center, axis=1) <= ball.radius * 1.001).all()
+    np.testing.assert_allclose(ball.center, [4.5, 5, 0], atol=1e-12)
+    assert ball.radius == pytest.approx(math.hypot(10, 1) / 2)
 
 
 @pytest.mark.parametrize("side", SIDES)

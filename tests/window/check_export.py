@@ -122,6 +122,9 @@ def an_export_is_cancelled_and_leaves_nothing(hand: Hand) -> None:
         assert app.exports.text(0.0).startswith("never.png: ")
         assert app.exports.job._process
         process = app.exports.job._process
+        press(hand, imgui.Key.q, CTRL)
+        answer(hand, "cancel")
+        assert not app.exports.job.is_cancelled, "the window asks before it closes"
         hand.ctx.item_click(f"{BOX}/cancel")
         hand.until(lambda: app.exports.job is None)
         assert process.poll() is not None

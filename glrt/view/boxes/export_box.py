@@ -62,7 +62,7 @@ def _content(app: App) -> None:
     _size(app, wish)
     _end(wish)
     wish.denoise = _choice("denoise", wish.denoise, get_args(Denoise))
-    explain("auto takes the best filter that is here; it needs 64 samples or more")
+    explain("auto takes the best filter that is here")
     if wish.kind == "film":
         _motion(wish)
     _file(app, wish)

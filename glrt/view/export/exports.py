@@ -1,6 +1,7 @@
 """The export of the window that is under way, and what is typed for the next one."""
 
 import time
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
@@ -101,6 +102,15 @@ class Exports:
             return self._files.rules.folder or base_of(self._files.source)
         except GlrtError:
             return None
+
+    def unless_under_way(self, act: Callable[[], object]) -> None:
+        """Close the window by `act`; ask first if that would end an export."""
+        if not self.job:
+            act()
+            return
+        name = self.job.order.path.name
+        text = f"{name} is being exported, which ends with the window."
+        self._files.messages.ask("Close the window?", text, close=act)
 
     def cancel(self) -> None:
         """Give up the export that is under way."""

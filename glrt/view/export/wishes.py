@@ -7,6 +7,7 @@ from typing import Literal, NamedTuple
 from glrt.core.errors import UsageError
 from glrt.core.files import check_writable
 from glrt.core.text import quoted
+from glrt.denoise.filters import least_samples
 from glrt.series.containers import check_container
 from glrt.series.outputs import parse_output
 from glrt.settings import Denoise, Settings
@@ -68,6 +69,7 @@ def order_of(wish: Wish, settings: Settings) -> Order:
         options += ["--samples", str(_whole("samples", wish.samples, 1, most))]
     else:
         options += ["--error", f"{_share(wish.error):g}"]
+    _check_denoiser(wish, settings)
     options += ["--denoise", wish.denoise, "--caustics", settings.caustics]
     path = Path(wish.path.strip()).expanduser()
     if not path.name:
@@ -90,6 +92,13 @@ def check_place(order: Order) -> None:
         if output.kind == "frames":
             return
     check_writable(order.path)
+
+
+def _check_denoiser(wish: Wish, settings: Settings) -> None:
+    """Raise UsageError for too few samples to know the error of a denoised picture."""
+    least = least_samples(settings.block)
+    if wish.denoise != "none" and wish.until == "samples" and int(wish.samples) < least:
+        raise UsageError(f"denoise: it needs {least} samples or more, to know its error.")
 
 
 def _of_film(wish: Wish, path: Path) -> list[str]:

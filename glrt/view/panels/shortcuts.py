@@ -46,7 +46,7 @@ COMMANDS: dict[Action, Callable[[App], object]] = {  # command of each action
     "save": lambda app: app.files.save_picture(),
     "export": lambda app: app.exports.toggle(),
     "copy_picture": lambda app: app.exports.copy_picture(),
-    "quit": lambda app: app.files.close(app.leave),
+    "quit": lambda app: app.exports.unless_under_way(lambda: app.files.close(app.leave)),
 }
 ANYWHERE: tuple[Action, ...] = (  # also on the start screen, which hides what others change
     *("keys", "palette", "full_screen", "start", "open", "quit"),
