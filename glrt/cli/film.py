@@ -11,6 +11,7 @@ from glrt.cli.options import (
     add_context,
     add_files,
     add_pipeline,
+    add_progress,
     add_settings,
     add_summary,
     error_limit,
@@ -71,6 +72,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_pipeline(parser)
     add_files(parser)
     add_summary(parser, "no progress and no summary")
+    add_progress(parser)
     parser.set_defaults(resume=None, part=None, frame=None)
 
 

@@ -77,6 +77,16 @@ def add_summary(parser: argparse.ArgumentParser, unsaid: str) -> None:
     parser.add_argument("--quiet", action="store_true", help=f"print {unsaid}")
 
 
+def add_progress(parser: argparse.ArgumentParser) -> None:
+    """Add `--progress`, for programs that show how far a command is."""
+    parser.add_argument(
+        "--progress",
+        action="store_true",
+        help="print the progress on standard output, two lines of JSON a second: share done, "
+        "seconds to go, samples",
+    )
+
+
 def add_pipeline(parser: argparse.ArgumentParser) -> None:
     """Add `--pipeline`."""
     parser.add_argument(

@@ -15,6 +15,7 @@ from glrt.cli.options import (
     add_files,
     add_outputs,
     add_pipeline,
+    add_progress,
     add_settings,
     add_summary,
     error_limit,
@@ -87,6 +88,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="continue this picture, with its scene and settings, up to --samples in all",
     )
     add_summary(parser, "no progress and no summary")
+    add_progress(parser)
 
 
 def _part(text: str) -> tuple[int, int]:
@@ -214,12 +216,14 @@ def _watch(
     arguments: argparse.Namespace, limits: Limits, autosave: Autosave, begun: int
 ) -> Iterator[Watch]:
     """Yield a function to call after each dispatch: it saves, and shows progress on a terminal."""
-    if arguments.quiet or not sys.stderr.isatty():
+    is_seen = not arguments.quiet and sys.stderr.isatty()
+    if not (arguments.progress or is_seen):
         yield autosave.after
         return
-    from glrt.cli.reports.progress import progress_bar
+    from glrt.cli.reports.progress import progress_bar, progress_lines
 
-    with progress_bar(limits, begun) as show:
+    shown = progress_lines if arguments.progress else progress_bar
+    with shown(limits, begun) as show:
 
         def watch(renderer: Renderer) -> None:
             show(renderer)

@@ -21,6 +21,7 @@ Modules, each importing only what stands above it:
 - file_places: places of files
 - files: open and saved files
 - recovery: unsaved edits kept for the next start
+- export: pictures and films that leave the window
 - camera_moves: the camera moved by mouse and keys
 - selection: the selected object, and edits of objects
 - app: state shared by the parts of the window
@@ -28,6 +29,7 @@ Modules, each importing only what stands above it:
 - panels: the panels
 - start: the screen that is shown without a scene
 - bars: bars above and below the picture
+- boxes: boxes over the picture
 - palette: a box that finds controls and commands
 - window: main loop and shutdown
 """

@@ -11,11 +11,14 @@ from glrt.gpu.glsl import files_reread
 from glrt.image.sources import STRICT, FileRules
 from glrt.process.load import LoadMeter
 from glrt.rendering.history.temporal import Way
+from glrt.scene.camera import Camera
 from glrt.scene.scene import Scene
 from glrt.scene.values import Vector
 from glrt.view.compared_picture import Pair
 from glrt.view.edits.scene_edits import found_again
 from glrt.view.edits.state_differences import change_text
+from glrt.view.edits.texture_images import is_texture
+from glrt.view.export.exports import Exports
 from glrt.view.file_watch import Watch
 from glrt.view.files import Files
 from glrt.view.messages import Messages, Question, nothing
@@ -46,6 +49,7 @@ class App(Selection):
     preferences_file: Path
     messages: Messages
     files: Files = field(init=False)
+    exports: Exports = field(init=False)
     source: InitVar[str]  # what was opened: a path, or the name of a scene that comes with glrt
     pace: FrameBudget
     pivot: Vector
@@ -59,6 +63,8 @@ class App(Selection):
     fill_screen: Callable[[], object] = nothing  # enters the full screen, or leaves it
     rectangle: Rectangle = (0.0, 0.0, 1.0, 1.0)  # of the picture on the screen, in pixels
     zoom: Zoom = FIT
+    kept_views: dict[str, dict[int, Camera]] = field(default_factory=dict)  # by what was opened
+    dropped: Path | None = None  # image that waits for the frame that knows where the mouse is
     inspects: bool = False  # whether the values of the pixel under the mouse are shown
     handles: Literal["move", "turn"] = "move"  # what those of the selected object do
     is_picture_alone: bool = False  # whether the panels are hidden
@@ -92,6 +98,7 @@ class App(Selection):
         self.files = Files(
             self.session, self.messages, source, recent, self.show_scene, self.add_model, rules
         )
+        self.exports = Exports(self.files)
 
     def prefer(self, preferences: Preferences) -> None:
         """Replace the preferences; `keep_preferences` writes them."""
@@ -111,9 +118,20 @@ class App(Selection):
             self.session.history.forget()  # the scene before was never seen
         self.shows_start = False
 
+    def drop(self, path: str) -> None:
+        """Take a file that was dropped on the window; an image goes to what is under the mouse."""
+        if not self.shows_start and is_texture(Path(path)):
+            self.dropped = Path(path)
+        else:
+            self.files.drop(path)
+
     def follow_files(self, now: float) -> None:
-        """Reload the scene file or the shaders if another program has changed them."""
+        """Reload the scene file or the shaders if another program has changed them.
+
+        Report what other processes have finished.
+        """
         self.files.follow(now)
+        self.exports.follow()
         if self.shaders.has_changed(now):
             self.reload_shaders()
 
@@ -157,6 +175,8 @@ class App(Selection):
         """Close what lies over the window, give up a scene that is read, or leave the paths."""
         if self.shows_keys:
             self.shows_keys = False
+        elif self.exports.is_open:
+            self.exports.is_open = False
         elif self.files.aside.opening:
             self.files.aside.end()
         elif self.shows_start:
@@ -243,6 +263,16 @@ class App(Selection):
         except GlrtError as error:  # no room for a second film, or a shader with an error
             self.show.view = "picture"
             self.messages.complain(str(error))
+
+    def release(self) -> None:
+        """End other processes and threads, and release OpenGL: the window closes."""
+        self.exports.end()
+        self.pair.go_on(False)
+        self.show.release()
+        self.paths.release()
+        self.silhouette.release()
+        self.files.dialogs.close()
+        self.session.release()
 
     def restart(self) -> None:
         """Restart the picture and its figures."""

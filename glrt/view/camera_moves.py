@@ -1,5 +1,6 @@
 """Moves of the camera by mouse and keys."""
 
+import math
 from collections.abc import Callable
 from contextlib import suppress
 from typing import Any
@@ -8,10 +9,14 @@ from glrt.core.errors import UsageError
 from glrt.scene.camera import Camera
 from glrt.scene.values import LARGEST, SMALLEST, Vector
 from glrt.view.controls import replaced
+from glrt.view.edits.file_camera import cameras_of
+from glrt.view.files import Files
 from glrt.view.messages import Messages
+from glrt.view.state.keys import label
 from glrt.view.state.preferences import Preferences
 from glrt.view.state.session import Session
 from glrt.view.viewport import orbit
+from glrt.view.viewport.sides import Ball, ball_of, seen_from
 
 
 class CameraMoves:
@@ -21,6 +26,8 @@ class CameraMoves:
     preferences: Preferences
     messages: Messages
     pivot: Vector
+    files: Files
+    kept_views: dict[str, dict[int, Camera]]  # by what was opened
 
     @property
     def camera(self) -> Camera:
@@ -40,6 +47,46 @@ class CameraMoves:
         """Return to the camera that the scene was opened with, and to its pivot."""
         self.pivot = self.session.opened.scene.camera.look_at
         self.place(self.session.opened.scene.camera)
+
+    def see_from(self, side: str) -> None:
+        """See all of the scene from one of its sides; the pivot is then its middle.
+
+        A scene of infinite planes alone is seen from as far away as now.
+        """
+        nearby = Ball(self.pivot, self.reach * math.sin(math.radians(self.camera.fov) / 2))
+        ball = ball_of(self.session.scene) or nearby
+        width, height = self.session.settings.size
+        with self.messages.reporting():
+            self.place(seen_from(self.camera, ball, side, width / height))
+            self.pivot = ball.center
+
+    def see_by(self, camera: Camera) -> None:
+        """See by another camera, such as one of a file; the pivot is where it looks."""
+        self.place(camera)
+        self.pivot = camera.look_at
+
+    @property
+    def views(self) -> dict[int, Camera]:
+        """The views of this scene that were kept, by their numbers from 1."""
+        return self.kept_views.setdefault(self.files.source, {})
+
+    @property
+    def cameras_of_files(self) -> dict[str, Camera]:
+        """The cameras of the glTF files of the scene, by the names of their nodes."""
+        return cameras_of(self.session.scene)
+
+    def keep_view(self, number: int) -> None:
+        """Keep the present view under a number, in place of another one, until the window ends."""
+        self.views[number] = self.camera
+        self.messages.report(f"View {number} is kept; {label(f'alt+{number}')} comes back to it")
+
+    def recall_view(self, number: int) -> None:
+        """Go back to a view that was kept."""
+        if camera := self.views.get(number):
+            self.see_by(camera)
+        else:
+            told = f"No view {number} is kept; {label(f'ctrl+{number}')} keeps the present one"
+            self.messages.report(told)
 
     def focus_on(self, point: Vector) -> None:
         """Focus the camera on a point; a point behind the camera is ignored."""

@@ -243,7 +243,7 @@ class Files:
     def ask_save_scene(self, path: str, is_agreed: bool = False, then: Then = nothing) -> None:
         """Save the scene under a name; ask before a file other than its own is replaced."""
         is_own = bool(self.watch) and Path(path).absolute() == Path(self.source).absolute()
-        self._unless_there(path, is_own or is_agreed, lambda: self.save_scene(path) and then())
+        self.unless_there(path, is_own or is_agreed, lambda: self.save_scene(path) and then())
 
     def save_picture(self, path: str = "") -> None:
         """Save the picture with its recipe to a path, by default that of the text box."""
@@ -260,7 +260,7 @@ class Files:
 
     def ask_save_picture(self, path: str, is_agreed: bool = False) -> None:
         """Save the picture; ask before an existing file is replaced."""
-        self._unless_there(path, is_agreed, lambda: self.save_picture(path))
+        self.unless_there(path, is_agreed, lambda: self.save_picture(path))
 
     def browse_picture(self) -> None:
         """Show a dialog to choose where the picture is saved."""
@@ -291,7 +291,8 @@ class Files:
             do_not_save=act,
         )
 
-    def _unless_there(self, path: str, is_agreed: bool, act: Then) -> None:
+    def unless_there(self, path: str, is_agreed: bool, act: Then) -> None:
+        """Act; ask before that if a file is there that would be replaced."""
         if os.path.exists(path) and not is_agreed:
             self.messages.ask("Replace it?", f"{where(Path(path))} is there already.", replace=act)
         else:

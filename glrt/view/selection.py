@@ -12,6 +12,8 @@ from glrt.view.controls import replaced
 from glrt.view.edits.locks import check_locks
 from glrt.view.edits.new_objects import two_digits, with_model, with_new_near
 from glrt.view.edits.scene_edits import with_duplicate, with_object, without_object
+from glrt.view.edits.state_differences import name_of
+from glrt.view.edits.texture_images import with_texture_image
 from glrt.view.viewport import orbit
 from glrt.view.viewport.pick import Picked, pick
 from glrt.view.viewport.transform import clear_of
@@ -64,6 +66,22 @@ class Selection(CameraMoves):
     def add_model(self, path: Path) -> None:
         """Add the meshes of a model at the pivot, and select the first."""
         self._add(lambda scene: with_model(scene, path, self.pivot, 2 * SIZE * self.reach))
+
+    def lay_image(self, path: Path, x: float, y: float) -> None:
+        """Make an image the color of the object under a point of the picture, as in `pick`."""
+        picked = self.pick(x, y) if 0 <= x <= 1 and 0 <= y <= 1 else None
+        if picked is None:
+            self.messages.complain(
+                f"{path.name} was dropped where no object is. Drop it on an object in the "
+                "picture: it becomes the color of that."
+            )
+            return
+        before = self.session.scene
+        self.edit_scene("", partial(with_texture_image, index=picked.number, path=path))
+        if self.session.scene is not before:
+            self.select(picked.number)
+            name = name_of(self.session.scene.objects[picked.number])
+            self.messages.report(f"{path.name} is the color of {name}; undo takes it off again")
 
     def duplicate(self) -> None:
         """Add a copy of the selected object above or below it, and select the copy."""

@@ -19,6 +19,7 @@ from glrt.scene.scene import Scene
 from glrt.settings import Denoise, Settings, settings_for
 from glrt.view.app import App
 from glrt.view.bars.framed import draw_picture
+from glrt.view.boxes.export_box import draw_export
 from glrt.view.event_wait import EventWait
 from glrt.view.file_watch import Watch
 from glrt.view.messages import Messages
@@ -31,7 +32,7 @@ from glrt.view.panels.key_table import draw_key_overlay
 from glrt.view.panels.layout import Shares
 from glrt.view.panels.panel import draw_panel
 from glrt.view.panels.plots import draw_figures
-from glrt.view.panels.shortcuts import draw_keys
+from glrt.view.panels.shortcuts import COMMANDS, draw_keys
 from glrt.view.panels.tour import draw_tour
 from glrt.view.recovery.headers import recovery_folder
 from glrt.view.recovery.keeper import Recovery
@@ -179,7 +180,7 @@ class Window:
         if self._later:
             self.app.files.aside.begin(*self._later)
             self.app.files.aside.refuse = self._refuse
-        self._native = Native(self.app.files.drop)
+        self._native = Native(self.app.drop)
         self.app.fill_screen = self._native.toggle_full_screen
         self.recovery = Recovery(self.app.files, recovery_folder())
         handle_lost_display(self.recovery.last_words)
@@ -227,7 +228,8 @@ class Window:
         """Return the texts that appear or disappear without an event."""
         messages = self.app.messages
         told = self.app.session.problem, messages.recent(now), messages.question
-        return *told, self.app.files.aside.text, len(self.recovery.offers), FINDER.is_marking
+        work = self.app.files.aside.text, self.app.exports.text(now), self.app.dropped
+        return *told, *work, len(self.recovery.offers), FINDER.is_marking
 
     def _keep(self, now: float) -> None:
         """Write changed preferences soon, not only at the end: a window may be killed."""
@@ -239,6 +241,7 @@ class Window:
         """Draw the popups above the panels: tour, questions and file dialog."""
         if not self.app.shows_start:
             draw_tour(self.app)
+        draw_export(self.app)
         draw_key_overlay(self.app)
         self._palette.draw(self.app)
         draw_recovery(self.recovery)
@@ -246,12 +249,12 @@ class Window:
         self.app.files.dialogs.poll(is_drawn=True)
 
     def _may_close(self) -> bool:
-        """Whether the window may close at once; otherwise ask about unsaved edits."""
-        is_agreed = not self.app.files.is_changed
+        """Whether the window may close at once; else ask about an export, and unsaved edits."""
+        is_agreed = not (self.app.files.is_changed or self.app.exports.job)
         if is_agreed:
             self._native.leave_full_screen()
         else:
-            self.app.files.close(self.app.leave)
+            COMMANDS["quit"](self.app)
         return is_agreed
 
     def _refuse(self, error: GlrtError) -> None:
@@ -266,13 +269,8 @@ class Window:
     def _close(self) -> None:
         self.recovery.end(is_interrupted=self._interruption.signal is not None)
         self.app.keep_preferences()
-        self.app.pair.go_on(False)
-        self.app.show.release()
         self._start.release()
-        self.app.paths.release()
-        self.app.silhouette.release()
-        self.app.files.dialogs.close()
-        self.app.session.release()
+        self.app.release()
 
 
 def _shown(gl: moderngl.Context, denoise: Denoise) -> PictureView:

@@ -1,5 +1,6 @@
 """The bar of a render: seconds that are left to the first of its limits."""
 
+import json
 from itertools import pairwise
 from types import SimpleNamespace
 from typing import Any
@@ -7,7 +8,7 @@ from typing import Any
 import pytest
 
 from glrt.cli.reports import progress
-from glrt.cli.reports.progress import Forecast
+from glrt.cli.reports.progress import Forecast, film_lines, progress_lines
 from glrt.rendering.stopping import Limits
 from glrt.settings import MAX_SAMPLES
 
@@ -105,3 +106,28 @@ def test_what_takes_longer_than_foretold_is_all_but_done(clock: dict[str, float]
     state = told(clock, Limits(400, deadline=101.0), 100)
     assert state["completed"] == 1
     assert state["rest"].endswith(" 0 s to go")
+
+
+def test_progress_for_programs_is_two_lines_of_json_a_second(
+    clock: dict[str, float], capsys: pytest.CaptureFixture[str]
+) -> None:
+    with progress_lines(Limits(400)) as watch:
+        for samples in (50, 51, 52, 100):
+            clock["seconds"] += 0.25
+            watch(renderer(samples, 0.2))
+    lines = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
+    first = {"progress": 0.125, "seconds_left": 1.8, "samples": 50, "error": 0.2}
+    assert lines == [first, {**first, "progress": 0.13, "seconds_left": 5.0, "samples": 52}]
+
+
+def test_progress_of_a_film_counts_frames_and_no_time_for_those_that_were_kept(
+    clock: dict[str, float], capsys: pytest.CaptureFixture[str]
+) -> None:
+    with film_lines(10) as watch:
+        for number, done in ((4, 4), (5, 5), (7, 7)):
+            clock["seconds"] += 3
+            watch(number, done, Limits(400), renderer(0, 0.2))
+    lines = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
+    assert [line["seconds_left"] for line in lines] == [None, 15.0, 6.0]
+    assert [line["progress"] for line in lines] == [0.4, 0.5, 0.7]
+    assert lines[0] == {"progress": 0.4, "seconds_left": None, "frame": 4, "frames": 10, "done": 4}

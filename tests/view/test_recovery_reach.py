@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 
 from glrt.image.sources import load
+from glrt.scene.loading.scene_files import check_loaded
 from glrt.scene.scene import Scene
 from glrt.view.edits.sky_images import with_sky_image
-from tests.support.image_bytes import flat_hdr
+from glrt.view.edits.texture_images import with_texture_image
+from tests.support.image_bytes import COLOR, flat_hdr, png
 from tests.support.kept_windows import Opened, let_all_die, next_to
 
 
@@ -35,6 +37,20 @@ def test_an_image_of_the_sky_comes_back(opened: Opened) -> None:
     found = later.session.scene.background.image
     assert found == image
     assert found.pixels is not None
+
+
+def test_an_image_on_an_object_comes_back(opened: Opened) -> None:
+    elsewhere = Path("images")
+    elsewhere.mkdir()
+    (elsewhere / "red.png").write_bytes(png(np.full((2, 2, 3), 255, np.uint8), COLOR))
+    opened.edit(partial(with_texture_image, index=0, path=elsewhere / "red.png"))
+    scene = opened.session.scene
+    opened.die()
+    later = next_to(opened)
+    later.recovery.restore()
+    assert later.session.problem == ""
+    assert later.session.scene.materials == scene.materials
+    check_loaded(later.session.scene)
 
 
 def moved(scene: Scene) -> Scene:

@@ -132,6 +132,17 @@ SLOW = (  # half a second each, or more
     "a_grid_is_shown_by_colours_whose_knots_are_changed",
     "a_click_on_a_picture_opens_its_scene",
     "a_file_that_was_opened_lately_is_opened_again",
+    "a_picture_of_another_size_is_exported_while_the_window_goes_on",
+    "a_jpeg_is_exported_and_replaces_a_file_when_that_is_agreed",
+    "an_export_is_cancelled_and_leaves_nothing",
+    "a_film_of_a_turntable_is_exported",
+    "what_is_wrong_with_an_export_is_said_where_it_is_typed",
+    "the_box_fits_a_small_window",
+    "an_image_dropped_on_an_object_becomes_its_color",
+    "the_scene_is_seen_from_its_sides",
+    "views_are_kept_and_come_back_by_digits",
+    "cameras_of_a_file_are_in_the_menu",
+    "undo_redo_and_pause_stand_in_the_bar_and_say_why_they_do_nothing",
 )
 
 

@@ -118,6 +118,18 @@ def test_the_edits_of_a_killed_window_are_restored_in_the_next(
 
 
 @pytest.mark.slow
+@pytest.mark.skipif(sys.platform != "linux", reason="looks at /proc")
+def test_an_export_ends_with_a_window_that_is_killed(display: str, tmp_path: Path) -> None:
+    assert ended_at("exporting_when_killed", display, tmp_path).returncode == -signal.SIGKILL
+    state = Path("/proc") / (tmp_path / "export.pid").read_text().strip() / "stat"
+    deadline = time.monotonic() + 60
+    while is_alive(state):
+        assert time.monotonic() < deadline, "nobody reads its progress any more"
+        time.sleep(0.1)
+    assert not (tmp_path / "long.png").exists()
+
+
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="elsewhere there is always a display")
 def test_edits_outlive_the_display(display: str, tmp_path: Path) -> None:
     done = ended_at("display_lost_with_edits", display, tmp_path)
@@ -150,6 +162,14 @@ def ended_at(moment: str, display: str, base: Path) -> "subprocess.CompletedProc
 
 def kept_edits(base: Path) -> list[Path]:
     return list((base / "state" / "glrt" / "recovery").glob("*.toml"))
+
+
+def is_alive(state: Path) -> bool:
+    """Whether a process runs, by its file in /proc; one that nobody has waited for does not."""
+    try:
+        return state.read_text().rpartition(")")[2].split()[0] != "Z"
+    except OSError:
+        return False
 
 
 def folders(base: Path) -> dict[str, str]:

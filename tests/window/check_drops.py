@@ -9,8 +9,8 @@ import glfw
 import numpy as np
 
 from glrt.scene.scenefile.toml import read_scene
-from tests.support.image_bytes import flat_hdr
-from tests.window.gestures import answer, reopen
+from tests.support.image_bytes import COLOR, flat_hdr, png
+from tests.window.gestures import answer, ball, place_of, reopen
 from tests.window.hand import Hand, check
 
 
@@ -57,6 +57,31 @@ def an_image_of_the_sky_dropped_by_another_program_lights_the_scene(hand: Hand) 
     hand.there(hand.session.undo)
     assert hand.session.scene is scene
     file.unlink()
+
+
+@check
+def an_image_dropped_on_an_object_becomes_its_color(hand: Hand) -> None:
+    """By another program; next to the picture it is refused."""
+    app, file = hand.window.app, Path.cwd() / "blue, 50 %.png"
+    file.write_bytes(png(np.full((2, 2, 3), (0, 0, 255), np.uint8), COLOR))
+    number, shape = ball(hand)
+    before = hand.session.scene
+    hand.ctx.mouse_move_to_pos(place_of(hand, shape.center))
+    hand.ctx.yield_(2)
+    assert dropped(hand, file) == 0
+    hand.until(lambda: hand.session.scene is not before)
+    hand.settle()
+    material: Any = hand.session.scene.materials[hand.session.scene.objects[number].material]
+    assert material.color_map.image.file == file.name
+    assert app.selected == number
+    assert app.messages.last.startswith("blue, 50 %.png is the color of ")
+    hand.there(app.undo)
+    assert hand.session.scene is before
+    app.select(None)
+    hand.ctx.mouse_move("//Controls/pause")
+    assert dropped(hand, file) == 0
+    hand.until(lambda: "where no object is" in hand.session.problem)
+    assert hand.session.scene is before
 
 
 @check

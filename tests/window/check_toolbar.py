@@ -8,7 +8,7 @@ import pytest
 from imgui_bundle import imgui
 
 from glrt.view.app import App
-from glrt.view.bars import framed
+from glrt.view.bars import framed, toolbar
 from glrt.view.bars.status import draw_status
 from glrt.view.bars.toolbar import BUTTONS
 from glrt.view.state.zoom import FIT
@@ -49,11 +49,7 @@ def the_bar_above_the_picture_edits_what_the_panel_shows(hand: Hand) -> None:
 
 @check
 def its_buttons_do_what_their_keys_do(hand: Hand) -> None:
-    app, ctx, start = hand.window.app, hand.ctx, hand.session.scene.camera
-    hand.there(lambda: app.turn(0.1, 0.1, about_camera=False))
-    ctx.item_click("//Picture/home")
-    hand.settle()
-    assert hand.session.scene.camera == start
+    app, ctx = hand.window.app, hand.ctx
     hand.there(lambda: app.zoom_to(2.0))
     ctx.item_click("//Picture/fit")
     ctx.yield_(2)
@@ -69,10 +65,54 @@ def its_buttons_do_what_their_keys_do(hand: Hand) -> None:
 
 
 @check
+def undo_redo_and_pause_stand_in_the_bar_and_say_why_they_do_nothing(hand: Hand) -> None:
+    app, session, ctx = hand.window.app, hand.session, hand.ctx
+    disabled = imgui.ItemFlags_.disabled.value
+
+    def told(name: str) -> tuple[str, bool]:
+        """The tooltip of a button, and whether it is grey."""
+        tips: list[str] = []
+        info = ctx.item_info(f"//Picture/###{name}")
+        ctx.mouse_move_to_pos(info.rect_full.get_center())
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr("glrt.view.bars.toolbar.explain", tips.append)
+            hand.until(lambda: any(name in tip.lower() for tip in tips))
+        tip = next(tip for tip in tips if name in tip.lower())
+        return tip, bool(ctx.item_info(f"//Picture/###{name}").item_flags & disabled)
+
+    with sized(hand, WIDE):
+        hand.there(session.history.forget)
+        assert told("undo") == (f"{toolbar._NO_UNDO} (Ctrl+Z)", True)
+        assert told("redo")[1]
+        samples = session.settings.samples
+        hand.there(lambda: session.edit(samples=samples + 1))
+        assert told("undo") == ("Undo: samples (Ctrl+Z)", False)
+        ctx.item_click("//Picture/###undo")
+        assert session.settings.samples == samples
+        assert told("redo") == ("Redo: samples (Ctrl+Y or Ctrl+Shift+Z)", False)
+        ctx.item_click("//Picture/###redo")
+        assert session.settings.samples == samples + 1
+        place = ctx.item_info("//Picture/###pause").rect_full
+        ctx.item_click("//Picture/###pause")
+        assert session.paused
+        ctx.yield_(2)
+        assert ctx.item_info("//Picture/###pause").rect_full.max.x == place.max.x, "nothing moves"
+        ctx.item_click("//Picture/###pause")
+        assert not session.paused
+    assert app.undoes
+
+
+@check
 def a_narrow_bar_ends_before_a_widget_that_would_be_cut(hand: Hand) -> None:
     def there() -> set[str]:
         hand.ctx.yield_(3)
-        names = (*BUTTONS, "##view", "##method", "##exposure")
+        names = (
+            "###pause",
+            *(it for it in BUTTONS if it != "pause"),
+            "##view",
+            "##method",
+            "##exposure",
+        )
         flags = int(imgui.test_engine.TestOpFlags_.no_error)
         return {it for it in names if hand.ctx.item_info(f"//Picture/{it}", flags).id_}
 

@@ -173,6 +173,20 @@ def leaving_the_start(window: Window, frame: int) -> None:
         terminate()
 
 
+def exporting_when_killed(window: Window, frame: int) -> None:
+    """As soon as the other process has reported how far it is."""
+    exports = window.app.exports
+    if frame == FRAMES:
+        exports.toggle()
+        exports.wish.samples, exports.wish.picture = "1000000", "long.png"
+        exports.ask_begin()
+    if exports.job and exports.job.share > 0:
+        assert exports.job._process
+        with open("export.pid", "w") as file:
+            print(exports.job._process.pid, file=file)
+        os.kill(os.getpid(), signal.SIGKILL)
+
+
 naps: list[float] = []  # since the last frame
 
 
@@ -217,6 +231,7 @@ MOMENTS: dict[str, Act] = {
         closing,
         closing_with_edits,
         killed_with_edits,
+        exporting_when_killed,
         restoring,
         display_lost_with_edits,
         terminated_with_edits,

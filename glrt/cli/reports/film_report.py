@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from glrt.cli.reports.progress import film_bar
+from glrt.cli.reports.progress import film_bar, film_lines
 from glrt.core.text import counted
 from glrt.process.command import file_names, print_figures
 from glrt.rendering.renderer import Renderer
@@ -31,12 +31,13 @@ class Reporter:
 
     @contextmanager
     def watching(self) -> Iterator[Watch | None]:
-        """Yield a function to call after each dispatch, which shows progress on a terminal."""
-        if self._arguments.quiet or not sys.stderr.isatty():
+        """Yield a function to call after each dispatch, which shows progress where it is seen."""
+        is_told, is_quiet = self._arguments.progress, self._arguments.quiet
+        if not is_told and (is_quiet or not sys.stderr.isatty()):
             yield None
             return
-        film = self._film
-        with film_bar(len(film.numbers)) as show:
+        film, shown = self._film, film_lines if is_told else film_bar
+        with shown(len(film.numbers)) as show:
 
             def watch(number: int, limits: Limits, renderer: Renderer) -> None:
                 show(number, len(film.frames), limits, renderer)

@@ -1,11 +1,12 @@
-"""Progress of a render on a terminal: samples, seconds, estimated error, forecast."""
+"""Progress of a render, on a terminal or as lines: samples, seconds, error, forecast."""
 
+import json
 import math
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import partial
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.stopping import Limits
@@ -13,6 +14,7 @@ from glrt.settings import MAX_SAMPLES
 
 LOOK = 2.0  # seconds between estimates of the error, which read the film back
 SHARE = 0.05  # largest share of the time that estimates take
+BETWEEN = 0.5  # seconds between two lines
 
 
 class Watch(Protocol):
@@ -47,6 +49,61 @@ def film_bar(count: int) -> Iterator["FilmWatch"]:
 
 
 @contextmanager
+def progress_lines(limits: Limits, begun: int = 0) -> Iterator[Watch]:
+    """Yield a function that prints progress as lines of JSON; `begun`: samples at the start.
+
+    It raises BrokenPipeError where nobody reads them any more.
+    """
+    forecast, lines = Forecast(limits, begun), _Lines()
+
+    def watch(renderer: Renderer) -> None:
+        if lines.is_due():
+            state = forecast.state(renderer)
+            lines.put(state.share, state.left, samples=state.samples, error=state.error)
+
+    yield watch
+
+
+@contextmanager
+def film_lines(count: int) -> Iterator["FilmWatch"]:
+    """Yield a function that prints progress of a film of `count` frames as lines of JSON."""
+    lines, forecasts = _Lines(), dict[int, Forecast]()
+    first: tuple[float, float] | None = None  # share and time of the first line
+
+    def watch(number: int, done: int, limits: Limits, renderer: Renderer) -> None:
+        nonlocal first
+        if number not in forecasts:
+            forecasts.clear()
+            forecasts[number] = Forecast(limits)
+        if not lines.is_due():
+            return
+        share, now = (done + forecasts[number].state(renderer).share) / count, time.perf_counter()
+        first = first or (share, now)  # frames that were kept took no time
+        gained, spent = share - first[0], now - first[1]
+        left = spent * (1 - share) / gained if gained > 0 else None
+        lines.put(share, left, frame=number, frames=count, done=done)
+
+    yield watch
+
+
+class _Lines:
+    """Lines of JSON on standard output, BETWEEN seconds apart."""
+
+    def __init__(self) -> None:
+        self._due = 0.0
+
+    def is_due(self) -> bool:
+        return time.perf_counter() >= self._due
+
+    def put(self, share: float, left: float | None, **figures: Any) -> None:
+        """Print a share of the work that is done, seconds to go if they are known, and figures."""
+        self._due = time.perf_counter() + BETWEEN
+        seconds = None if left is None else round(left, 1)
+        line = {"progress": round(share, 4), "seconds_left": seconds, **figures}
+        print(json.dumps(line), flush=True)
+
+
+@contextmanager
 def _bar() -> Iterator[Callable[..., None]]:
     """Yield a function that updates a temporary bar on stderr by the fields of `Forecast.after`."""
     from rich.console import Console
@@ -64,6 +121,16 @@ class FilmWatch(Protocol):
     def __call__(self, number: int, done: int, limits: Limits, renderer: Renderer) -> None: ...
 
 
+class State(NamedTuple):
+    """How far a render is."""
+
+    samples: int  # of a pixel
+    share: float  # of the work that is done; 0 while that is unknown
+    seconds: float  # since the start
+    left: float | None  # seconds to the first limit; None while that is unknown
+    error: float | None  # estimate; None while it is unknown
+
+
 class Forecast:
     """Progress and remaining time of a render, by its limits of samples, time and error."""
 
@@ -77,6 +144,18 @@ class Forecast:
 
     def after(self, renderer: Renderer) -> dict[str, Any]:
         """Return the fields of the bar after a dispatch."""
+        state = self.state(renderer)
+        error = f"error {100 * state.error:.2g} %  " if state.error else ""
+        most = self._limits.samples  # not shown where time or error ends the render
+        of_all = f" of {most}" if most < MAX_SAMPLES else ""
+        unknown = "how long is not known yet"
+        to_go = unknown if state.left is None else f"{state.left:.0f} s to go"
+        rest = f"{error}{state.seconds:.0f} s, {to_go}"
+        done = f"{state.samples}{of_all} samples"
+        return {"completed": state.share, "done": done, "rest": rest}
+
+    def state(self, renderer: Renderer) -> State:
+        """Return the progress after a dispatch; from time to time that estimates the error."""
         start = time.perf_counter()
         is_first = self._error is None and renderer.samples >= 2 * renderer.settings.block
         if is_first or (renderer.samples and start >= self._due):
@@ -85,20 +164,14 @@ class Forecast:
             self._due = start + spent + max(LOOK, spent / SHARE)
         seconds = start - self._start
         total = self._total_seconds(renderer.work, seconds)
-        error = f"error {100 * self._error:.2g} %  " if self._error else ""
-        most = self._limits.samples  # not shown where time or error ends the render
-        of_all = f" of {most}" if most < MAX_SAMPLES else ""
-        done = f"{renderer.samples}{of_all} samples"
         if total is None:
-            rest = f"{error}{seconds:.0f} s, how long is not known yet"
-            return {"completed": 0.0, "done": done, "rest": rest}
+            return State(renderer.samples, 0.0, seconds, None, self._error)
         share = min(1.0, seconds / total) if total else 1.0
-        rest = f"{error}{seconds:.0f} s, {max(0.0, total - seconds):.0f} s to go"
-        return {"completed": share, "done": done, "rest": rest}
+        return State(renderer.samples, share, seconds, max(0.0, total - seconds), self._error)
 
     def _total_seconds(self, samples: float, seconds: float) -> float | None:
         """Return the seconds to the first limit; None if it is an error that is not known yet."""
-        rate = max(samples - self._begun, 1e-9) / seconds
+        rate = max(samples - self._begun, 1e-9) / max(seconds, 1e-9)
         candidates = []
         if self._limits.samples < MAX_SAMPLES or not self._limits.is_open:
             candidates.append((self._limits.samples - self._begun) / rate)

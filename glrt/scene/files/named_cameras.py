@@ -40,6 +40,10 @@ class OneCamera(Protocol):
 class Cameras(Protocol):
     """The cameras of a file."""
 
+    @property
+    def names(self) -> list[str]:
+        """Names, as `find` takes them, of the nodes with a camera by which one can see."""
+
     def find(self, node: str | None) -> OneCamera:
         """Return the camera of a node, or the only one; ValueError if there is no such camera."""
 

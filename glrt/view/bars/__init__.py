@@ -2,6 +2,7 @@
 
 Modules, each importing only what stands above it:
 
+- camera_menu: views of the camera
 - toolbar: files, the view, and what is changed most often
 - status: messages and figures
 - framed: the picture between its bars

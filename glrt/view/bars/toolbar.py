@@ -4,9 +4,11 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
-from imgui_bundle import hello_imgui, imgui
+from imgui_bundle import ImVec2, hello_imgui, imgui
+from imgui_bundle import icons_fontawesome_4 as icons
 
 from glrt.view.app import App
+from glrt.view.bars.camera_menu import draw_camera_menu, open_camera_menu
 from glrt.view.controls import Control
 from glrt.view.panels.compare import VIEW
 from glrt.view.panels.panel import SETTINGS
@@ -18,14 +20,21 @@ from glrt.view.widgets.tips import explain
 BUTTONS: dict[str, Action] = {
     "open": "open",
     "save": "save_scene",
-    "save picture": "save",
-    "home": "home",
+    "export": "export",
+    "undo": "undo",
+    "redo": "redo",
+    "pause": "pause",
     "fit": "fit",
     "find": "palette",
     "keys": "keys",
 }
+ICONS = {"undo": icons.ICON_FA_UNDO, "redo": icons.ICON_FA_REDO, "pause": icons.ICON_FA_PAUSE}
 CHOICES = ("method", "exposure")
-_WIDTH = 7.0  # em, of a list or a slider
+_NO_UNDO = "Nothing to undo: nothing was edited since the scene was opened"
+_NO_REDO = "Nothing to redo: nothing was undone since the last edit"
+_ALSO_GREY = int(imgui.HoveredFlags_.allow_when_disabled)
+_ICON = 1.1  # em, of the widest of them
+_WIDTH = 5.6  # em, of a list or a slider
 
 
 def draw_toolbar(app: App) -> None:
@@ -33,6 +42,7 @@ def draw_toolbar(app: App) -> None:
     line = _Line()
     for text, action in BUTTONS.items():
         line.draw(_width_of(text), partial(_button, app, text, action))
+    line.draw(_width_of("camera"), partial(_camera, app))
     _choice(line, VIEW, app.show.view, partial(_look, app))
     for name in CHOICES:
         _choice(
@@ -65,10 +75,44 @@ class _Line:
 
 
 def _button(app: App, text: str, action: Action) -> None:
-    if imgui.button(text):
+    """Draw the button of an action, grey where the action has nothing to do."""
+    width = _width_of(text)
+    if icon := ICONS.get(text):
+        is_paused = action == "pause" and app.session.paused
+        text = f"{icons.ICON_FA_PLAY if is_paused else icon}###{text}"
+    imgui.begin_disabled(not _is_useful(app, action))
+    if imgui.button(text, ImVec2(width, 0.0)):
         COMMANDS[action](app)
-    keys = " or ".join(map(label, app.preferences.bindings[action]))
-    explain(f"{MEANING[action]} ({keys})" if keys else MEANING[action])
+    imgui.end_disabled()
+    if imgui.is_item_hovered(_ALSO_GREY):  # two scenes are compared for the texts of undo
+        keys = " or ".join(map(label, app.preferences.bindings[action]))
+        told = _told(app, action)
+        explain(f"{told} ({keys})" if keys else told)
+
+
+def _camera(app: App) -> None:
+    """Draw the button of the menu of views, and the menu."""
+    if imgui.button("camera"):
+        open_camera_menu()
+    draw_camera_menu(app)
+    explain("See a side of the scene, a view that was kept, or by a camera of a file")
+
+
+def _is_useful(app: App, action: Action) -> bool:
+    """Whether an action does something at present."""
+    history = app.session.history
+    if action == "undo":
+        return history.can_undo
+    return history.can_redo if action == "redo" else True
+
+
+def _told(app: App, action: Action) -> str:
+    """Return what an action does at present, or why it does nothing."""
+    if action == "undo":
+        return app.undoes or _NO_UNDO
+    if action == "redo":
+        return app.redoes or _NO_REDO
+    return MEANING[action]
 
 
 def _choice(line: _Line, control: Control, value: Any, use: Callable[[Any], None]) -> None:
@@ -88,4 +132,5 @@ def _choice(line: _Line, control: Control, value: Any, use: Callable[[Any], None
 
 
 def _width_of(text: str) -> float:
-    return float(imgui.calc_text_size(text).x + 2 * imgui.get_style().frame_padding.x)
+    written = hello_imgui.em_size(_ICON) if text in ICONS else imgui.calc_text_size(text).x
+    return float(written + 2 * imgui.get_style().frame_padding.x)

@@ -7,6 +7,7 @@ Modules, each importing only what stands above it:
 - media_edits: media added, chosen and changed
 - file_camera: cameras of glTF files, read again and saved
 - sky_images: images that become the background
+- texture_images: images that become the color of an object
 - new_objects: new objects and their placement
 - edited_state: the value that undo restores
 - state_differences: differences of two states, in words

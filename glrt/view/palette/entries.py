@@ -12,6 +12,7 @@ from glrt.view.palette.matching import Entry
 from glrt.view.panels.panel import SECTIONS
 from glrt.view.panels.shortcuts import COMMANDS
 from glrt.view.state import keys
+from glrt.view.viewport.sides import SIDES
 from glrt.view.widgets.finder import FINDER, Row
 
 _KINDS = ("preference", "background", "sky")  # of rows, whose labels are clear without them
@@ -51,7 +52,29 @@ def _menus(app: App) -> list[Entry]:
         Entry(f"open scene {name}", "Files", act=partial(app.files.ask_open, name))
         for name in scene_names()
     ]
-    return [*added, *opened]
+    return [*added, *opened, *_cameras(app)]
+
+
+def _cameras(app: App) -> list[Entry]:
+    """Return the sides of the scene, the views that were kept, and the cameras of files."""
+    sides = [
+        Entry(f"see the {side} of the scene", "Camera", act=partial(app.see_from, side))
+        for side in SIDES
+    ]
+    kept = [
+        Entry(
+            f"go back to view {n}",
+            "Camera",
+            keys.label(f"alt+{n}"),
+            act=partial(app.recall_view, n),
+        )
+        for n in sorted(app.views)
+    ]
+    files = [
+        Entry(f"see by camera {name}", "Camera", act=partial(app.see_by, camera))
+        for name, camera in app.cameras_of_files.items()
+    ]
+    return [*sides, *kept, *files]
 
 
 def _rows(app: App) -> list[Entry]:

@@ -22,6 +22,8 @@ _MOUSE = {  # in the picture, and on labels in the panel
     "click": "select an object; its handles move or turn it, with Shift they scale it",
     "Alt, click": "focus on that point",
     "double click": "make that point the pivot",
+    "Ctrl, 1 to 9": "keep the view under that number",
+    "Alt, 1 to 9": "go back to the view of that number",
     "drag a label": "change its value; a double click there sets it back",
 }
 

@@ -8,7 +8,7 @@ from glrt.view.app import App
 from glrt.view.outliner.listing import OUTLINER
 from glrt.view.panels.key_table import is_choosing, key_named
 from glrt.view.panels.navigation import leaves, navigate
-from glrt.view.state.keys import Action, Move
+from glrt.view.state.keys import MOST_VIEWS, Action, Move
 
 _AXES: dict[Move, tuple[int, int, int]] = {  # right, up, forward
     "forward": (0, 0, 1),
@@ -44,7 +44,9 @@ COMMANDS: dict[Action, Callable[[App], object]] = {  # command of each action
     "save_scene": lambda app: app.files.save_again(),
     "save_scene_as": lambda app: app.files.browse_scene(),
     "save": lambda app: app.files.save_picture(),
-    "quit": lambda app: app.files.close(app.leave),
+    "export": lambda app: app.exports.toggle(),
+    "copy_picture": lambda app: app.exports.copy_picture(),
+    "quit": lambda app: app.exports.unless_under_way(lambda: app.files.close(app.leave)),
 }
 ANYWHERE: tuple[Action, ...] = (  # also on the start screen, which hides what others change
     *("keys", "palette", "full_screen", "start", "open", "quit"),
@@ -86,8 +88,19 @@ def draw_keys(app: App) -> None:
         if _is_pressed(app, action) and (action in ANYWHERE or not app.shows_start):
             act(app)
             app.is_deaf = "ctrl" in modifiers()  # keys released after Ctrl move nothing
+    _views(app)
     if not held and not imgui.is_any_item_active() and not _may_click_again():
         app.session.history.settle()
+
+
+def _views(app: App) -> None:
+    """Keep views by Ctrl and a digit, and go back to them by Alt; keys of actions come first."""
+    taken = {chord for chords in app.preferences.bindings.values() for chord in chords}
+    for number in range(1, MOST_VIEWS + 1):
+        for modifier, act in (("ctrl", app.keep_view), ("alt", app.recall_view)):
+            chord = f"{modifier}+{number}"
+            if chord not in taken and _comes(chord) and not app.shows_start:
+                act(number)
 
 
 def _may_click_again() -> bool:

@@ -66,6 +66,9 @@ def draw_viewport(app: App, room: ImVec2) -> None:
         imgui.invisible_button("picture", ImVec2(max(room.x, 1), max(room.y, 1)), _EVERY_BUTTON)
         _mouse(app, here, room)
         _clicks(app)
+    if app.dropped:
+        dropped, app.dropped = app.dropped, None
+        app.lay_image(dropped, *_share_under_mouse(app))
     low = ImVec2(seen[0], seen[1] + seen[3])
     if app.show.drawn != "picture":
         draw_legend(app.show, app.session, app.progress.last, low, seen[2])
@@ -85,6 +88,7 @@ def notices(app: App) -> list[str]:
     opens = app.files.aside.text
     lines = (
         f"{opens}; Escape cancels" if opens else "",
+        app.exports.text(time.perf_counter()),
         app.show.notice(app.session),
         notice_of_lag(app.session.lag),
         paths_text(app),

@@ -25,8 +25,8 @@ class Header:
     """Which scene the edits belong to, when they were saved, and files that the scene lacks.
 
     `saved` is in seconds since 1970. `edits` counts steps of undo since the scene was saved or
-    opened; None if that is unknown. `models` are the paths of models that were added, and of an
-    image of the sky.
+    opened; None if that is unknown. `models` are the paths of models and images that
+    were added.
     """
 
     source: str

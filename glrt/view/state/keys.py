@@ -11,7 +11,9 @@ Action = (
     | Literal["fit", "one_to_one", "inspect", "paths", "panel", "keys", "palette", "find_object"]
     | Literal["brighter", "darker", "picture_alone", "full_screen", "start"]
     | Literal["duplicate", "delete", "open", "save_scene", "save_scene_as", "save", "quit"]
+    | Literal["export", "copy_picture"]
 )
+MOST_VIEWS = 9  # that are kept, each by a digit: Ctrl keeps it, Alt goes back to it
 Bindings = dict[Action, tuple[str, ...]]
 
 DEFAULTS: Bindings = {
@@ -46,6 +48,8 @@ DEFAULTS: Bindings = {
     "save_scene": ("ctrl+s",),
     "save_scene_as": ("ctrl+shift+s",),
     "save": ("ctrl+e",),
+    "export": ("ctrl+shift+e",),
+    "copy_picture": ("ctrl+shift+c",),
     "quit": ("ctrl+q",),
 }
 MEANING: dict[Action, str] = {
@@ -80,6 +84,8 @@ MEANING: dict[Action, str] = {
     "save_scene": "save the scene",
     "save_scene_as": "save the scene as",
     "save": "save the picture",
+    "export": "export a picture of any size, or a film",
+    "copy_picture": "copy the picture to the clipboard",
     "quit": "close the window",
 }
 

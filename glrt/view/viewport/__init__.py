@@ -6,6 +6,7 @@ Modules, each importing only what stands above it:
 - views: the views of a render
 - difference: numbers of the difference from the kept picture
 - orbit: moves of the camera
+- sides: views of the whole scene from its sides
 - pick: the object under a point of the picture
 - black: why the picture is black
 - outline: outline of an object in the picture

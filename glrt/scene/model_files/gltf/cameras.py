@@ -87,6 +87,11 @@ class FileCameras:
         self._chains = _by_name(_chains(shown))
 
     @property
+    def names(self) -> list[str]:
+        """Names of the nodes whose camera has perspective, as `find` takes them."""
+        return list(self._seeing)
+
+    @property
     def first(self) -> tuple[str, FileCamera] | None:
         """The first camera with perspective, and the name that finds it; None without one."""
         return next(((name, self.find(name)) for name in self._seeing), None)
