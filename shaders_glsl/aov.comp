@@ -30,7 +30,7 @@ void main() {
         }
     }
     add_aovs(first, second, frame.origin + texel);
-    if ((HAS_SPHERE_TREE || HAS_TREE || HAS_MESH) && loop_was_cut) atomicAdd(lost_samples, 1u);
+    if (MAY_LOSE && loop_was_cut) atomicAdd(lost_samples, 1u);
     imageStore(target_mean, texel, vec4(first.mean, first.count));
     imageStore(target_variance, texel, vec4(first.variance, first.observations));
     if (SECOND_AOV == NO_AOV) return;

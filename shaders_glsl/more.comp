@@ -16,6 +16,6 @@ void main() {
     ivec2 texel = ivec2(int(pixels[place]) % width, int(pixels[place]) / width);
     Pixel pixel = empty_pixel();
     int lost = add_samples(pixel, frame.origin + texel);
-    if ((HAS_SPHERE_TREE || HAS_TREE || HAS_MESH) && lost > 0) atomicAdd(lost_samples, uint(lost));
+    if (MAY_LOSE && lost > 0) atomicAdd(lost_samples, uint(lost));
     imageStore(target_more, texel, vec4(pixel.mean, pixel.count));
 }

@@ -67,5 +67,5 @@ void main() {
     if (own_clipped > 0u) atomicAdd(clipped, own_clipped);
     if (own_refused > 0u) atomicAdd(refused, own_refused);
     if (COUNT_RAYS) add_to_pixel(ivec2(0), vec3(rays_so_far * frame.particles), 0);  // a mean over the frame
-    if ((HAS_SPHERE_TREE || HAS_TREE || HAS_MESH) && lost > 0) atomicAdd(lost_samples, uint(lost));
+    if (MAY_LOSE && lost > 0) atomicAdd(lost_samples, uint(lost));
 }

@@ -39,5 +39,5 @@ void main() {
     vec4 found = light_along(Ray(stand, directions[number].xyz, NO_SHAPE, false), rng);
     if (COUNT_RAYS) found.rgb = vec3(rays_so_far);
     imageStore(target_rays, ivec2(number, probe), found);
-    if ((HAS_SPHERE_TREE || HAS_TREE || HAS_MESH) && loop_was_cut) atomicAdd(lost_samples, 1u);
+    if (MAY_LOSE && loop_was_cut) atomicAdd(lost_samples, 1u);
 }

@@ -50,6 +50,6 @@ void main() {
     load_terms(texel);
     Pixel whole = empty_pixel();
     int lost = add_samples(whole, frame.origin + texel);
-    if ((HAS_SPHERE_TREE || HAS_TREE || HAS_MESH) && lost > 0) atomicAdd(lost_samples, uint(lost));
+    if (MAY_LOSE && lost > 0) atomicAdd(lost_samples, uint(lost));
     store_terms(texel);
 }

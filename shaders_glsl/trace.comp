@@ -80,7 +80,7 @@ void main() {
     if (HAS_NET) load_net(texel);
     if (RASTERS) keep_raster(texelFetch(raster_hits, texel, 0).xy);
     int lost = add_samples(pixel, layers, frame.origin + texel);
-    if ((HAS_SPHERE_TREE || HAS_TREE || HAS_MESH) && lost > 0) atomicAdd(lost_samples, uint(lost));
+    if (MAY_LOSE && lost > 0) atomicAdd(lost_samples, uint(lost));
     if (HAS_NET) judge_net(pixel);
     imageStore(target_mean, texel, vec4(pixel.mean, pixel.count));
     imageStore(target_variance, texel, vec4(pixel.variance, pixel.observations));

@@ -1,6 +1,7 @@
 """Drivers end loops early: frames that lost samples are done again, or what is lost is counted."""
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -15,7 +16,9 @@ from glrt.plan import facts
 from glrt.rendering import schedule
 from glrt.rendering.renderer import Renderer
 from tests.support.builders import MATTE, plane, scene_of, sphere
+from tests.support.media import EVEN, MU
 from tests.support.renders import rendered, rendering, same
+from tests.truths.test_grids import smoke, with_smoke
 
 
 @pytest.fixture
@@ -43,6 +46,30 @@ def test_a_frame_that_lost_samples_is_done_again_with_fewer_at_once(
         image = renderer.image()
     for name in ("TREE_FROM", "SPHERES_FROM"):
         monkeypatch.setattr(facts, name, 1 << 30)
+    assert same(image, rendered(scene, context, 300, **settings))
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("hopeful")
+@pytest.mark.parametrize("method", ["mis", "march"])
+def test_a_frame_that_lost_samples_in_a_grid_is_done_again(
+    context: Context, monkeypatch: pytest.MonkeyPatch, method: str
+) -> None:
+    """A ray has 1,000 steps or null collisions: 300 samples a dispatch are too many."""
+    if usable_rounds(context) is None:
+        pytest.skip("this driver has no loop limit")
+    grid = np.full((8, 8, 8), 0.3, np.float32)
+    grid[0, 0, 0] = 250.0  # in a corner that no ray meets; its brick holds all voxels
+    scene = with_smoke(smoke(grid, absorption=MU), background=EVEN)
+    settings: dict[str, Any] = {"width": 8, "height": 8, "bounces": 0, "method": method}
+    settings["march_step"] = 0.002
+    with rendering(scene, context, **settings) as renderer:
+        before = renderer.most_samples
+        renderer.step(300)
+        assert renderer.most_samples <= 300 // 2 < before
+        assert renderer.nonfinite() == 0
+        image = renderer.image()
+    monkeypatch.undo()
     assert same(image, rendered(scene, context, 300, **settings))
 
 

@@ -1,5 +1,6 @@
 """Ray marching: steps of a fixed length through grids, and how far that is from the truth."""
 
+import math
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,8 @@ from glrt.gpu.context import Context
 from glrt.plan.facts import SceneFacts
 from glrt.plan.features import needs_of
 from glrt.plan.omissions import left_out, omissions
+from glrt.plan.plan import prepare
+from glrt.rendering.schedule import iterations_per_sample
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for
 from tests.support.builders import box, quad, sphere
@@ -184,6 +187,17 @@ def test_steps_that_are_too_short_are_refused_with_the_shortest_that_is_not(
     scene = with_smoke(smoke(RAMP, absorption=MU), background=EVEN)
     with pytest.raises(UsageError, match=r"march-step 1e-05 .* media\.fog.* at least 0\.00035\."):
         rendered(scene, context, 1, **MARCH, march_step=1e-5)
+
+
+def test_steps_count_among_the_rounds_of_a_sample() -> None:
+    """Its path and a ray to a lamp take them in each segment, and a segment may end at the bound."""
+    scene = with_smoke(smoke(RAMP, MU), [CUBE, filled(sphere([0, 0, 9], 0.5, ""), None, "lamp")])
+    rounds = [
+        iterations_per_sample(prepare(scene, steps_through(scene, march_step=it, bounces=3)))
+        for it in (0.3, 0.003)
+    ]
+    most = [math.ceil(DEPTH * math.sqrt(3) / it) for it in (0.3, 0.003)]
+    assert rounds[1] - rounds[0] == (3 + 1) * 2 * 2 * (most[1] - most[0])
 
 
 def test_short_steps_of_one_grid_reach_through_it(context: Context) -> None:
