@@ -22,6 +22,7 @@ def render(
 ) -> Image:
     """Render a scene and return the picture.
 
+    With the shutter of the camera open, what its animation moves is blurred.
     `settings` are fields of Settings; the scene's `[render]` table supplies the others. A `part`
     (k, n) renders the k-th of n parts of the samples, with k from 1; `glrt.merge` joins the parts.
 
@@ -29,7 +30,13 @@ def render(
     driver fails, and SceneError for a scene beyond the limits of the driver.
     """
     renderer = Renderer(
-        scene, context=context, tier="baked", part=part, samples=samples, **settings
+        scene,
+        context=context,
+        tier="baked",
+        part=part,
+        opens_shutter=True,
+        samples=samples,
+        **settings,
     )
     try:
         return renderer.render().image()

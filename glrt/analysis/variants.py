@@ -5,11 +5,11 @@ from dataclasses import dataclass
 from typing import Any, get_args
 
 from glrt.denoise import oidn
-from glrt.plan.combinations import refusal
 from glrt.plan.facts import SceneFacts
 from glrt.plan.features import needs_of
 from glrt.plan.methods import METHODS as TRAITS
 from glrt.plan.methods import traits_of
+from glrt.plan.particle_refusals import refusal
 from glrt.rendering.probe_supply import HYSTERESIS
 from glrt.scene.grids import edges_of_voxels
 from glrt.scene.scene import Scene

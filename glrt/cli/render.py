@@ -28,6 +28,7 @@ from glrt.core.text import counted
 from glrt.image.image import Image, check_writable
 from glrt.image.partition import parse_part
 from glrt.image.sources import check_not_scene
+from glrt.plan.combinations import Way, check
 from glrt.plan.facts import SceneFacts
 from glrt.plan.slow_scenes import slow_because
 from glrt.process import signals
@@ -123,6 +124,7 @@ def _run(arguments: argparse.Namespace) -> int:
     if getattr(arguments, "aov", ()) and not is_kept:
         raise UsageError("--aov needs an .exr output: other files hold the picture alone.")
     if is_automatic(arguments):
+        check({Way.AUTO} | ({Way.SHUTTER} if wanted.scene.is_blurred else set()))
         from glrt.analysis.method_choice.advice import choose
 
         chosen = choose(arguments, wanted.scene, wanted.settings, wanted.limits)

@@ -61,12 +61,12 @@ def order(arguments: argparse.Namespace) -> Order:
 
 
 def frame_of(scene: Scene, settings: Settings, number: int | None) -> tuple[Scene, Settings]:
-    """Return a frame of a scene as a still, with its settings.
+    """Return a frame of a scene, as `Scene.at_frame` does, with its settings.
 
     None: with the values that it was loaded with.
     """
     if number is None:
-        return scene.still, settings
+        return scene.exposed, settings
     still = scene.at_frame(number)
     return still, with_phong_of(still, scene.moved, settings)
 
@@ -131,7 +131,7 @@ def opened(order: Order, arguments: argparse.Namespace) -> Renderer:
     route, pipeline = arguments.context, arguments.pipeline
     if order.begun is None:
         recipe = recipe_of(arguments.scene)
-        own: Opening = {"tier": "baked", "pipeline": pipeline}
+        own: Opening = {"tier": "baked", "pipeline": pipeline, "opens_shutter": True}
         own |= {"part": order.part, "decisions": order.decisions}
         return open_renderer(order.scene, order.settings, recipe, route, **own)
     recipe = recipe_to_resume(order.begun)
@@ -144,6 +144,7 @@ def opened(order: Order, arguments: argparse.Namespace) -> Renderer:
             part=order.part,
             decisions=order.decisions,
             apart=recipe.apart,
+            opens_shutter=True,
         )
         return renderer.resume(order.begun)
 
@@ -155,6 +156,7 @@ class Opening(TypedDict, total=False):
     pipeline: Pipeline
     part: tuple[int, int] | None
     decisions: Mapping[str, str]
+    opens_shutter: bool
 
 
 def open_renderer(

@@ -9,14 +9,11 @@ from collections.abc import Collection, Iterator
 from enum import StrEnum
 from itertools import combinations
 
-import numpy as np
-
 from glrt.core.errors import UsageError
 from glrt.plan.facts import SceneFacts
 from glrt.plan.methods import METHODS, reuses_points, traits_of
+from glrt.plan.particle_refusals import refusal
 from glrt.plan.plan import Layering
-from glrt.scene.shapes.kinds import SAMPLED, Shape
-from glrt.scene.shapes.plane import Plane
 from glrt.scene.summary import few
 from glrt.settings import TERMS, Settings
 
@@ -45,6 +42,7 @@ class Way(StrEnum):
     AUTO = "--method auto"
     TIME = "--time"
     ERROR = "--error"
+    SHUTTER = "an open shutter"
 
 
 MEANINGS: dict[Way, str] = {
@@ -70,6 +68,7 @@ MEANINGS: dict[Way, str] = {
     Way.AUTO: "`--method auto`: the cheapest that reaches `--error`",
     Way.TIME: "`--time`: end after some seconds",
     Way.ERROR: "`--error`: end at an error",
+    Way.SHUTTER: "`shutter` of `[camera]`, in a scene that moves: motion blur",
 }
 
 # For each option: the options above it that it works with.
@@ -125,6 +124,10 @@ _WORKS: dict[Way, tuple[Way, ...]] = {
         *(Way.CLASSIC, Way.PROBES, Way.REUSE, Way.PARTICLES, Way.PILOT, Way.DENOISE, Way.AUTO),
         *(Way.TERMS, Way.TIME, Way.HYBRID, Way.MARCH, Way.NET),
     ),
+    Way.SHUTTER: (
+        *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.FRAGMENT),
+        *(Way.CLASSIC, Way.HYBRID, Way.MARCH, Way.PILOT, Way.TIME, Way.ERROR),
+    ),
 }
 
 _LENGTH = "which samples a part has follows from their number in all: give --samples"
@@ -178,6 +181,21 @@ _REFUSED: dict[frozenset[Way], str] = {
     frozenset({Way.DENOISE, Way.MERGED}): "halves of all samples cannot be found from its parts",
     frozenset({Way.DENOISE, Way.AUTO}): "it chooses by the error of plain pictures: name a method",
 }
+_REFUSED |= {
+    frozenset({Way.SHUTTER, way}): f"{why}: close the shutter by `shutter = 0`"
+    for way, why in {
+        Way.AOV: "AOVs are gathered for many samples at once, which see one time",
+        Way.TERMS: "AOVs are gathered for many samples at once, which see one time",
+        Way.INDEPENDENT: "its samples share no even times, so that all pixels would err alike",
+        Way.NET: "its samples share no even times, so that all pixels would err alike",
+        Way.LAYERS: "the window's film shows one time",
+        Way.PROBES: "probes hold the light of one time",
+        Way.REUSE: "probes hold the light of one time",
+        Way.PARTICLES: "particles are followed for many samples at once, which see one time",
+        Way.DENOISE: "the AOVs that guide it show one time",
+        Way.AUTO: "it measures a picture of one time",
+    }.items()
+}
 _UNTRIED = "nobody has tried the two together"
 
 
@@ -208,12 +226,16 @@ def check(ways: Collection[Way]) -> None:
 
 
 def check_render(
-    facts: SceneFacts, settings: Settings, layering: Layering, is_part: bool, is_fragment: bool
+    facts: SceneFacts,
+    settings: Settings,
+    layering: Layering,
+    is_part: bool,
+    is_fragment: bool,
+    is_blurred: bool = False,
 ) -> None:
     """Raise UsageError if a renderer cannot combine these options, or cannot follow particles."""
-    ways = ways_of(settings, layering)
-    ways |= {Way.PART} if is_part else set()
-    check(ways | ({Way.FRAGMENT} if is_fragment else set()))
+    more = {Way.PART: is_part, Way.FRAGMENT: is_fragment, Way.SHUTTER: is_blurred}
+    check(ways_of(settings, layering) | {way for way, is_asked in more.items() if is_asked})
     traits = traits_of(settings)
     if facts.media.names and (traits.has_probes or traits.rasters):
         why = "a raster finds" if traits.rasters else "its probes hold the light of"
@@ -250,50 +272,3 @@ def ways_of(settings: Settings, layering: Layering = "none") -> set[Way]:
         Way.DENOISE: settings.denoise != "none",
     }
     return {way for way, is_asked in found.items() if is_asked}
-
-
-def refusal(facts: SceneFacts, settings: Settings) -> str | None:
-    """Return why requested particles cannot be followed; None if they can or none are requested."""
-    return next(_refusals(facts, settings), None) if settings.caustics == "on" else None
-
-
-def _refusals(facts: SceneFacts, settings: Settings) -> Iterator[str]:
-    particles = facts.particles
-    if not METHODS[settings.method].weighs_particles:
-        yield f"particles are weighed by the method mis alone, not by {settings.method}"
-    if not (particles.lamps or particles.sun_sends or particles.sky_sends):
-        yield f"no {', '.join(SAMPLED)}, sun or sky shines: particles leave these alone"
-    if facts.has_many_lights:
-        yield f"of {facts.sampled_lamps} lamps, too many to choose among for each particle"
-    if facts.holed:
-        yield "some surfaces have holes, which particles do not follow yet"
-    if facts.scene.hidden_backs:
-        yield "some meshes hide their backs, which particles would meet from the other side"
-    if _shines_in_tinted_glass(facts) or _sun_shines_in_it(facts):
-        yield "a lamp, sun or sky is in tinted glass or one with a priority: none starts there"
-    if facts.media.names:
-        yield "the scene has media, which particles do not follow yet"
-    if facts.camera_glass.counts:
-        yield "the camera is in glass with a priority, where nothing is linked to it"
-
-
-def _dense(facts: SceneFacts) -> list[Shape]:
-    """Return the visible shapes of tinted glass or of glass with a priority."""
-    glasses = facts.glasses.items()
-    dense = {name for name, it in glasses if any(it.absorption) or it.priority is not None}
-    return [thing for thing in facts.scene.visible if thing.material in dense]
-
-
-def _shines_in_tinted_glass(facts: SceneFacts) -> bool:
-    around = _dense(facts)
-    lamps = facts.particles.lamps if around else []
-    centers = [np.array(lamp.middle, np.float64) for lamp in lamps]
-    return any(glass.holds(center) for glass in around for center in centers)
-
-
-def _sun_shines_in_it(facts: SceneFacts) -> bool:
-    """Return whether the sun or part of a sky is on the inner side of a plane of `_dense` glass."""
-    planes, sun = [it for it in _dense(facts) if isinstance(it, Plane)], facts.scene.sun
-    if facts.particles.sky_sends:
-        return bool(planes)
-    return sun is not None and any(float(np.dot(plane.normal, sun.towards)) < 0 for plane in planes)

@@ -22,6 +22,7 @@ Modules, each importing only what stands above it:
 - layer_weights: weighted sum of the layers of a film
 - progress: read-only properties of a renderer
 - first_half: the first half of a render, for a denoiser
+- shutter: the scene of each sample while the shutter is open
 - renderer: the renderer: a scene and settings to samples
 - history: samples of earlier views while the camera moves
 - stopping: renders up to a limit of samples, time or error

@@ -1,21 +1,40 @@
-"""Read-only properties of a render: samples, kernels, seconds."""
+"""Read-only properties of a render: samples, pixels, kernels, seconds."""
 
+from glrt.gpu.context import Context
 from glrt.gpu.glsl import Source
+from glrt.plan.plan import Weights
 from glrt.rendering.aov_tracer import AovMean
 from glrt.rendering.device_scene import DeviceScene
 from glrt.rendering.film import Film
+from glrt.rendering.layer_weights import Reading, mixed, read_row
 from glrt.rendering.particle_tracer import Losses
 from glrt.rendering.pass_film import Array
 from glrt.rendering.pipelines import Tier
 from glrt.rendering.probe_supply import ProbeSupply
 from glrt.rendering.tracer import Tracer
-from glrt.settings import Aov
+from glrt.settings import Aov, Settings
 
 
 class Progress:
-    """Read-only progress of a render: its samples, kernels and seconds."""
+    """Read-only progress of a render: its samples, pixels, kernels and seconds."""
 
+    context: Context
+    settings: Settings
     _tracer: Tracer
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height of the picture or of the crop, in pixels."""
+        return self.settings.size
+
+    def lacks(self, samples: int) -> bool:
+        """Whether the picture has fewer samples, or its particles or AOVs lag behind it."""
+        return self.samples < samples or self._tracer.is_behind
+
+    def nonfinite(self) -> int:
+        """Number of samples and particles that were dropped because they were not finite."""
+        with self.context.gl:
+            return self.film.dropped() + self.lost_particles.refused
 
     @property
     def samples(self) -> int:
@@ -84,4 +103,18 @@ class Progress:
     @property
     def lost_particles(self) -> Losses:
         """Losses among the particles that were linked to the camera."""
-        return self._tracer.lost_particles
+        particles = self._tracer.particles
+        return particles.losses if particles else Losses(0, 0)
+
+    def reading(self, weights: Weights, x: int, y: int) -> Reading:
+        """Reading of the pixel in column x, row y, (0, 0) upper left; needs a current context."""
+        row, radiance, error = read_row(self.film, weights, y)
+        radiance, error, _ = self._tracer.with_particles(radiance, error, weights, y)
+        finite = self.film.samples - int(row.dropped[0, x])
+        return Reading(radiance[0, x], error[0, x], finite)
+
+    def picture(self, weights: Weights) -> tuple[Array, Array]:
+        """Weighted radiance and its standard error, (H, W, 3) float32; needs a current context."""
+        mean, noise, _ = mixed(self.film, weights)
+        radiance, stderr, _ = self._tracer.with_particles(mean, noise, weights)
+        return radiance, stderr

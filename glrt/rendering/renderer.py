@@ -19,16 +19,14 @@ from glrt.image.layer_sums import LayerSums
 from glrt.image.partition import Partition, one_part, wanted_range
 from glrt.image.recipe import Recipe, lasting, traced
 from glrt.image.resume import fitting
-from glrt.plan.combinations import check_render
-from glrt.plan.facts import SceneFacts
-from glrt.plan.plan import ONE, Layering, Weights, prepare
+from glrt.plan.plan import ONE, Layering, Weights
 from glrt.rendering.first_half import Halver, check_rest
-from glrt.rendering.layer_weights import Mixer, Reading, gathered, mixed, read_row
-from glrt.rendering.pass_film import Array
+from glrt.rendering.layer_weights import Mixer, gathered, mixed
 from glrt.rendering.pipelines import PLAIN, KernelOptions, Tier, Variant, resolve
 from glrt.rendering.progress import Progress
 from glrt.rendering.schedule import ENOUGH, HEADLESS, INTERACTIVE, DispatchPolicy
 from glrt.rendering.screen.display import displayed
+from glrt.rendering.shutter import Shutter
 from glrt.rendering.tracer import Tracer
 from glrt.scene.instancing import Apart
 from glrt.scene.scene import Scene
@@ -51,6 +49,7 @@ class Renderer(Progress):
         part: tuple[int, int] | None = None,
         decisions: Mapping[str, str] = {},
         apart: Apart = "repeated",
+        opens_shutter: bool = False,
         **overrides: Unpack[SettingOptions],
     ) -> None:
         """Open OpenGL, compile the kernel and allocate the film.
@@ -62,8 +61,9 @@ class Renderer(Progress):
         lets the bounces be fewer. A `part` (k, n) renders the k-th of n parts of the samples, from
         k = 1. `apart` selects meshes with trees of their own: moved without a new tree, but slower
         to trace. `decisions` are stored in recipes: what chose a setting in the user's place, by
-        its name. Raises UsageError for settings that do not go together, ContextError, RenderError,
-        and SceneError for a scene beyond the driver.
+        its name. With `opens_shutter` the camera's shutter blurs what its animation moves; without,
+        the scene stands still. Raises UsageError for settings that do not go together,
+        ContextError, RenderError, and SceneError for a scene beyond the driver.
         """
         if not isinstance(scene, Scene):
             raise UsageError(f"a Scene is wanted, got {scene!r}: glrt.load reads one")
@@ -71,18 +71,20 @@ class Renderer(Progress):
         self.settings = with_filter(settings_for(settings or scene.render, **overrides))
         self._decisions = decisions, self.settings
         self._part: Partition | None = one_part(*part, self.settings) if part else None
-        self.plan = prepare(scene, self.settings, layering, self._samples.start, apart)
-        wanted = SceneFacts(scene, apart), self.settings, layering, part is not None
-        check_render(*wanted, pipeline == "fragment")
+        self._shutter = Shutter(scene, self.settings, opens_shutter, apart)
+        wanted = layering, part is not None
+        self._shutter.check(*wanted, pipeline == "fragment")
+        self.plan = self._shutter.plan(layering, self._samples.start)
         self._owns_context = not isinstance(context, Context)
         self.context = context if isinstance(context, Context) else open_context(context, pipeline)
         with ExitStack() as refused:
             if self._owns_context:
                 refused.callback(self.context.gl.release)
             self.pipeline = resolve(pipeline, self.context)
-            check_render(*wanted, self.pipeline == "fragment")
+            self._shutter.check(*wanted, self.pipeline == "fragment")
             with self.context.gl:
-                options = KernelOptions(self.pipeline, tier, variant)
+                kept: Tier = "generic" if self._shutter.is_open else tier  # between samples
+                options = KernelOptions(self.pipeline, kept, variant)
                 self._tracer = Tracer(self.context, self.plan, options)
             refused.pop_all()
         self._mixer = Mixer(self.context.gl)
@@ -109,15 +111,6 @@ class Renderer(Progress):
         if self._part and samples > self.wanted_samples:
             raise UsageError(f"Part {self._part} has {self.wanted_samples} samples, not {samples}.")
 
-    def lacks(self, samples: int) -> bool:
-        """Whether the picture has fewer samples, or its particles or AOVs lag behind it."""
-        return self.samples < samples or self._tracer.is_behind
-
-    @property
-    def size(self) -> tuple[int, int]:
-        """Width and height of the picture or of the crop, in pixels."""
-        return self.settings.size
-
     def weighed(self, weights: Weights) -> moderngl.Texture:
         """Texture of the film under weights, valid until the next call; needs a current context."""
         return self._mixer.draw(self.film, weights, self._tracer.shown_particles)
@@ -143,22 +136,22 @@ class Renderer(Progress):
         is_same = hysteresis == self.probes.hysteresis
         if is_same and (*after, layering) == (self.scene, self.settings, self.plan.layering):
             return None
-        is_fragment = self.pipeline == "fragment"
-        check_render(SceneFacts(after[0]), after[1], layering, self._part is not None, is_fragment)
+        shutter = self._shutter.after(*after)
+        shutter.check(layering, self._part is not None, self.pipeline == "fragment")
         self._halver.restart()
         wanted = wanted_range(self._part, after[1])
         is_other_part = self._part is not None and wanted != self._samples
-        relit = self.plan.relit(*after, layering) if is_same and not is_other_part else None
-        if relit:
-            cost = Cost.FREE if relit == self.plan else Cost.RELIGHT
+        can_relight = is_same and not is_other_part
+        plan = shutter.relit(self.plan, layering, self._shutter) if can_relight else None
+        if plan:
+            cost = Cost.FREE if plan == self.plan else Cost.RELIGHT
             with self.context.gl:
                 self._tracer.use_aovs(after[1])
-            (self.scene, self.settings), self.plan = after, relit
-            return cost
-        plan = self.plan.followed_by(*after, layering, wanted.start)
-        with self.context.gl:
-            self._tracer, cost = self._tracer.replaced_for(plan, hysteresis)
-        (self.scene, self.settings), self.plan = after, plan
+        else:
+            plan = shutter.plan(layering, wanted.start, self.plan)
+            with self.context.gl:
+                self._tracer, cost = self._tracer.replaced_for(plan, hysteresis)
+        (self.scene, self.settings), self._shutter, self.plan = after, shutter, plan
         return cost
 
     def bake(self) -> bool:
@@ -176,7 +169,10 @@ class Renderer(Progress):
             raise UsageError(f"a dispatch of this scene takes 1 to {most} samples, not {samples}")
         self._check_part(self.samples + samples)
         with self.context.gl:
-            self._tracer.step(samples)
+            while samples:
+                together = self._followed(samples)
+                self._tracer.step(together)
+                samples -= together
 
     def advance(self, seconds: float, samples: int | None = None) -> bool:
         """Work for about `seconds`, up to `samples` per pixel (default: the settings').
@@ -238,19 +234,6 @@ class Renderer(Progress):
             return replace(image, sums=known)
         return replace(image, film_state=known)
 
-    def reading(self, weights: Weights, x: int, y: int) -> Reading:
-        """Reading of the pixel in column x, row y, (0, 0) upper left; needs a current context."""
-        row, radiance, error = read_row(self.film, weights, y)
-        radiance, error, _ = self._tracer.with_particles(radiance, error, weights, y)
-        finite = self.film.samples - int(row.dropped[0, x])
-        return Reading(radiance[0, x], error[0, x], finite)
-
-    def picture(self, weights: Weights) -> tuple[Array, Array]:
-        """Weighted radiance and its standard error, (H, W, 3) float32; needs a current context."""
-        mean, noise, _ = mixed(self.film, weights)
-        radiance, stderr, _ = self._tracer.with_particles(mean, noise, weights)
-        return radiance, stderr
-
     def resume(self, image: Image) -> "Renderer":
         """Continue from a picture, to the bits of one render; UsageError says why it cannot."""
         film_state = fitting(image, self._recipe((ONE,)))
@@ -265,11 +248,6 @@ class Renderer(Progress):
         with self.context.gl:
             return displayed(self.context.gl, self.weighed(self.plan.weights), self.settings)
 
-    def nonfinite(self) -> int:
-        """Number of samples and particles that were dropped because they were not finite."""
-        with self.context.gl:
-            return self.film.dropped() + self._tracer.lost_particles.refused
-
     def release(self) -> None:
         """Release all OpenGL resources; the context too, unless it was given."""
         with self.context.gl:
@@ -280,7 +258,7 @@ class Renderer(Progress):
 
     def _recipe(self, weights: Weights) -> Recipe:
         return Recipe(
-            scene=self.scene.still,
+            scene=self.scene.exposed if self._shutter.is_open else self.scene.still,
             settings=self.settings,
             samples=self.samples,
             version=VERSION,
@@ -295,4 +273,16 @@ class Renderer(Progress):
 
     def _work(self, remaining: int, policy: DispatchPolicy, seconds: float = math.inf) -> None:
         with self.context.gl:
-            self._tracer.work_on(remaining, policy, seconds)
+            together = self._followed(remaining)
+            self._tracer.work_on(together, policy, seconds)
+
+    def _followed(self, samples: int) -> int:
+        """How many of `samples` see the scene that the driver now has for the first of them."""
+        if plan := self._shutter.next_plan(self.film.next_sample, self.plan):
+            known, compiled = self.device_scene.seconds, self._tracer.switch.compile_seconds
+            self._tracer, _ = self._tracer.replaced_for(plan, keeps_samples=True)
+            self.plan = plan
+            self._tracer.switch.compile_seconds += compiled
+            seconds = self.device_scene.seconds.items()
+            self.device_scene.seconds = {name: known[name] + more for name, more in seconds}
+        return min(samples, 1) if self._shutter.is_open else samples

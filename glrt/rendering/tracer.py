@@ -18,7 +18,7 @@ from glrt.rendering.aov_tracer import AovTracer, Subject
 from glrt.rendering.device_scene import DeviceScene
 from glrt.rendering.film import Extent, Film
 from glrt.rendering.kernel_switch import KernelSwitch
-from glrt.rendering.particle_tracer import Losses, ParticleTracer, particles_for
+from glrt.rendering.particle_tracer import ParticleTracer, particles_for
 from glrt.rendering.pass_film import Array
 from glrt.rendering.pipelines import KernelOptions, Tier
 from glrt.rendering.probe_supply import ProbeSupply
@@ -86,8 +86,10 @@ class Tracer:
         if not before:
             self.restart()
 
-    def replaced_for(self, plan: Plan, hysteresis: float | None = None) -> tuple["Tracer", Cost]:
-        """A tracer for another plan, without samples yet, and the cost of the change.
+    def replaced_for(
+        self, plan: Plan, hysteresis: float | None = None, keeps_samples: bool = False
+    ) -> tuple["Tracer", Cost]:
+        """A tracer for another plan, without samples unless it keeps them, and the change's cost.
 
         It takes over this tracer's film if that fits, and releases the rest. Errors are those of
         the constructor; after one, this tracer is unchanged.
@@ -103,8 +105,9 @@ class Tracer:
             self.aovs.release()
         self.probes.release(after.probes)
         self._release_own()
-        after.film.restart(plan.first_sample)
-        after.aovs.restart(plan)
+        if not keeps_samples:
+            after.film.restart(plan.first_sample)
+            after.aovs.restart(plan)
         return after, Cost.RESTART if is_same else Cost.RECOMPILE
 
     @property
@@ -177,11 +180,6 @@ class Tracer:
     def _catch_up_particles(self) -> None:
         while self._lacks_particles:
             self._work_behind(HEADLESS, math.inf)
-
-    @property
-    def lost_particles(self) -> Losses:
-        """Losses among the particles that were linked to the camera."""
-        return self.particles.losses if self.particles else Losses(0, 0)
 
     def resume(
         self, samples: int, mean: Array, film_state: FilmState, particles: ParticleFilm | None

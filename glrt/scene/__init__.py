@@ -35,6 +35,7 @@ Modules, each importing only what stands above it:
 - scenefile: scene files (TOML), read and written
 - glasses: glasses of a scene, and the glass around its camera
 - summary: contents of a scene in words
+- file_warnings: warnings about files that a scene names
 - export: scenes as files of other programs
 - warnings: warnings about numbers and limits of the model
 """

@@ -70,6 +70,14 @@ class Camera(Value):
         lt=180,
         description="full angle under which the point in focus sees the lens; 0: a pinhole",
     )
+    shutter: Annotated[float, Editable(unit="of a frame", slider=(0, 1))] = Field(
+        0.0,
+        ge=0,
+        le=1,
+        description="share of a frame's time for which the shutter is open, from the moment of the "
+        "frame on: what [animation] moves is blurred by `glrt render` and `glrt film`; the window "
+        "shows the moment; 0: always the moment",
+    )
     file: NamedCamera | None = Field(
         None,
         description="path of a model, .glb or .gltf, whose camera gives position, look_at, up and "
@@ -105,6 +113,7 @@ class Camera(Value):
             fov: Number = 45.0,
             focus_distance: Number | None = None,
             defocus_angle: Number = 0.0,
+            shutter: Number = 0.0,
         ) -> None: ...
 
         @overload

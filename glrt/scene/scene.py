@@ -92,10 +92,11 @@ class Scene(LitScene):
         return self.animation.count if self.animation else 1
 
     def at_frame(self, number: int) -> Self:
-        """Return the still at a frame of the animation, from 0, with the values of that moment.
+        """Return a frame of the animation, from 0, with the values of its moment.
 
-        Raises `UsageError` for a frame that the animation lacks, and `SceneError` if a curve leaves
-        the range of its value between two keys.
+        It is a still, unless the shutter is open: then it keeps what moves, in an animation of one
+        frame. Raises `UsageError` for a frame that the animation lacks, and `SceneError` if a curve
+        leaves the range of its value between two keys.
         """
         if not 0 <= number < self.frames:
             has = f"frames 0 to {self.frames - 1}" if self.animation else "frame 0 alone"
@@ -103,8 +104,36 @@ class Scene(LitScene):
         if self.animation is None:
             return self
         moment = self.animation.moment(number)
-        values = {track.keys: track.at(moment) for track in self.animation.tracks}
-        return with_values(self.still, values, f"frame {number}")
+        still = self._at(moment, f"frame {number}")
+        begun = self.animation.model_copy(update={"start": moment})
+        return still.model_copy(update={"animation": begun}).exposed
+
+    def in_shutter(self, share: float) -> Self:
+        """Return the still at a share, 0 to 1, of the time for which the shutter is open.
+
+        It opens at frame 0. Raises `SceneError` if a curve leaves the range of its value.
+        """
+        if self.animation is None:
+            return self
+        return self._at(self.animation.moment(share * self.camera.shutter), "with the shutter open")
+
+    def _at(self, moment: float, source: str) -> Self:
+        tracks = self.animation.tracks if self.animation else ()
+        return with_values(self.still, {it.keys: it.at(moment) for it in tracks}, source)
+
+    @property
+    def is_blurred(self) -> bool:
+        """Whether the shutter is open while something changes."""
+        return bool(self.camera.shutter and self.animation and self.animation.tracks)
+
+    @property
+    def exposed(self) -> Self:
+        """Frame 0 with the values that the scene holds: a still, or with what the shutter blurs."""
+        if not (self.is_blurred and self.animation):
+            return self.still
+        return self.model_copy(
+            update={"animation": self.animation.model_copy(update={"frames": 1})}
+        )
 
     @property
     def moved(self) -> list[tuple[str, ...]]:

@@ -30,7 +30,12 @@ def _animation(scene: Scene) -> list[str]:
     if scene.animation is None:
         return []
     frames = f"{counted(scene.frames, 'frame')} at {number(scene.animation.fps)} a second"
-    return [f"animation  {frames}: {few([track.target for track in scene.animation.tracks])}"]
+    lines = [f"animation  {frames}: {few([track.target for track in scene.animation.tracks])}"]
+    if scene.is_blurred:
+        open_for = scene.camera.shutter / scene.animation.fps
+        share = f"{number(scene.camera.shutter)} of a frame"
+        lines.append(f"shutter    open for {share}, {open_for:.3g} s: what moves is blurred")
+    return lines
 
 
 def _objects(scene: Scene) -> Iterator[str]:

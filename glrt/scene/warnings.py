@@ -9,11 +9,10 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from glrt.core.text import counted, number, quoted
+from glrt.core.text import number, quoted
 from glrt.scene.coincidence import coincidence_of
 from glrt.scene.crossing_glass import MOST_COMPARED, Relation, relations
-from glrt.scene.images.texture_sizes import MOST_TEXELS, sizes_of
-from glrt.scene.materials.base import Opaque
+from glrt.scene.file_warnings import large_images, repeated, unread
 from glrt.scene.materials.dielectric import Dielectric
 from glrt.scene.materials.kinds import glass_of
 from glrt.scene.scene import Scene
@@ -45,9 +44,10 @@ def cautions(scene: Scene, settings: Settings) -> list[str]:
         _endless(scene),
         _twins(scene),
         _shared_places(scene),
-        *_repeated(scene),
-        *_unread(scene),
-        _large_images(scene),
+        _idle_shutter(scene),
+        *repeated(scene),
+        *unread(scene),
+        large_images(scene),
     )
     return [text for text in found if text]
 
@@ -231,38 +231,13 @@ def _shared_places(scene: Scene) -> str:
     )
 
 
-def _repeated(scene: Scene) -> Iterator[str]:
-    """Yield a warning for each file that holds triangles twice."""
-    meshes = [thing for thing in scene.objects if isinstance(thing, Mesh)]
-    for file, mesh in {mesh.file: mesh for mesh in reversed(meshes)}.items():
-        if file.triangles is not None and (count := mesh.triangles_of_file.repeated):
-            verb = "repeats another one" if count == 1 else "repeat others"
-            yield f"{file.file}: {counted(count, 'triangle')} {verb}, and each is there once."
-
-
-def _unread(scene: Scene) -> Iterator[str]:
-    """Yield a warning for each model file with content that is left out."""
-    meshes = [thing for thing in scene.objects if isinstance(thing, Mesh)]
-    for file in dict.fromkeys(mesh.file for mesh in meshes if mesh.file.unread):
-        where = ", ".join(file.libraries) or file.file
-        yield (
-            f"{where}: of {file.file} is left out: {few(file.unread)}. docs/how-to/models.md says "
-            "what is read; with a `material` of the scene its object has another look."
-        )
-
-
-def _large_images(scene: Scene) -> str:
-    """Warn of images that are made smaller."""
-    opaque = [it for it in scene.materials.values() if isinstance(it, Opaque)]
-    images = {t.image for it in opaque for t in it.textures.values() if t.image is not None}
-    texels = {image.file: image.texels.shape[:2] for image in images if image.texels is not None}
-    sizes = sizes_of(list(texels.values()))
-    smaller = [file for file, size in zip(texels, sizes, strict=True) if texels[file] != size]
-    if not smaller:
+def _idle_shutter(scene: Scene) -> str:
+    """Warn of an open shutter in front of a scene that stands still."""
+    if not scene.camera.shutter or scene.is_blurred:
         return ""
     return (
-        f"the images of this scene have more than {MOST_TEXELS >> 20} million pixels together: "
-        f"{few(smaller)} {'is' if len(smaller) == 1 else 'are'} made smaller. Use smaller ones."
+        f"camera.shutter {number(scene.camera.shutter)} blurs nothing: the scene has no "
+        "[animation] with tracks. Give it some, or leave the shutter out."
     )
 
 

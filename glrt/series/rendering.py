@@ -88,7 +88,8 @@ class FrameRenderer:
         return None if self._interruption.signal is not None else image
 
     def _renderer_of(self, still: Still) -> Renderer:
-        tier: Tier = "baked" if _work(still) >= MUCH_WORK else "generic"
+        is_much = _work(still) >= MUCH_WORK and not still.scene.is_blurred
+        tier: Tier = "baked" if is_much else "generic"
         if self._renderer and tier == self._tier:
             self._renderer.update(still.scene, **dict(still.settings))
             self._renderer.restart()
@@ -99,6 +100,7 @@ class FrameRenderer:
         self._renderer = Renderer(
             *(still.scene, still.settings, options.context, tier, options.pipeline),
             decisions=options.decisions,
+            opens_shutter=True,
         )
         return self._renderer
 

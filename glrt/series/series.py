@@ -76,7 +76,7 @@ class Series:
             scene = self.scene.at_frame(number)
             settings = with_phong_of(scene, self.scene.moved, settings)
             return Still(scene, settings, self._moment(number))
-        scene = self.scene.at_frame(0)
+        scene = self.scene.at_frame(0).still
         degrees = TURN * number / self.turns
         camera = turned(scene.camera, degrees)
         return Still(scene.model_copy(update={"camera": camera}), settings, f"{degrees:g} degrees")
@@ -92,7 +92,7 @@ class Series:
         values: dict[tuple[str, ...], Any] = {s.keys: s.value(step) for s, step in pairs}
         changes = setting_changes(values)
         of_scene = {keys: value for keys, value in values.items() if not is_setting(keys)}
-        first = self.scene.at_frame(0)
+        first = self.scene.at_frame(0).still
         scene = with_values(first, of_scene, f"frame {number}")
         settings = with_phong_of(scene, of_scene, settings_for(settings, **changes))
         return Still(scene, settings, label)

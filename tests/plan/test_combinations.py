@@ -26,7 +26,7 @@ from glrt.plan.combinations import (
     reason,
     works,
 )
-from tests.support.ways import OPTIONS, SIZE, Options, merged, plain, relit
+from tests.support.ways import OPTIONS, SIZE, Options, merged, plain, relit, save_moving
 from tests.support.ways_together import try_together
 
 
@@ -67,7 +67,11 @@ REFUSED = [pair for pair in pairs() if not works(*pair)]
     "*--caustics*", "a merged picture-*", "*terms of light*", "*hybrid*", "*method march*"
 )
 @pytest.mark.slow_cases(
-    "light by layers---*", "a classic lighting model---*", "the independent*---*", "--sampler net-*"
+    "*an open shutter",
+    "light by layers---*",
+    "a classic lighting model---*",
+    "the independent*---*",
+    "--sampler net-*",
 )
 @pytest.mark.parametrize(
     ("one", "other"),
@@ -100,6 +104,7 @@ NEVER_ASKED = [  # no command line does
     *({Way.MARCH, it} for it in (Way.AUTO, Way.CLASSIC, Way.PROBES, Way.REUSE, Way.HYBRID)),
     {Way.PARTICLES, Way.PILOT},
     {Way.INDEPENDENT, Way.NET},
+    {Way.LAYERS, Way.SHUTTER},
 ]
 
 
@@ -161,6 +166,7 @@ SOURCES: dict[Way, Callable[[], Options]] = {
     Way.PART: lambda: ["--part", "1/3"],
     Way.MERGED: from_merged,
     Way.LAYERS: from_relit,
+    Way.SHUTTER: save_moving,
 }
 
 

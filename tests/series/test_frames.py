@@ -1,5 +1,7 @@
 """Frames of a series: their scenes, and the bits of their pictures."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -18,7 +20,7 @@ from glrt.settings import Settings, settings_for
 from tests.support.images import same_bits
 
 SMALL = Settings(width=24, height=16, samples=16)
-MOVING = {
+MOVING: dict[str, Any] = {
     "camera": {"position": [0, 1, 5], "look_at": [0, 0, 0]},
     "background": {"bottom": [0.2, 0.2, 0.2], "top": [1, 1, 1]},
     "materials": {"red": {"type": "lambertian", "color": [0.8, 0.1, 0.1]}},

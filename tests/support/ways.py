@@ -8,6 +8,7 @@ from glrt import Renderer, load, merge
 from glrt.cli.commands import run
 from glrt.image.image import Image
 from glrt.plan.combinations import Way
+from glrt.scene.animation.tracks import Animation, Track
 from glrt.scene.scene import with_lights
 from tests.support.renders import assert_agree, same
 
@@ -92,7 +93,24 @@ def relit(options: Options) -> Image:
     return rendered("relit.exr", *options)
 
 
-BASES: dict[Way, Render] = {Way.MERGED: merged, Way.LAYERS: relit}
+def save_moving() -> Options:
+    """Write a scene in which the camera moves while the shutter is open; its name and size."""
+    track = Track(target="camera.position", times=(0, 1), values=[[-0.2, 0, 2.9], [0.2, 0.1, 2.9]])
+    scene, moves = load("cornell"), Animation(fps=1, tracks=(track,))
+    camera = scene.camera.model_copy(update={"shutter": 1.0})
+    scene.model_copy(update={"camera": camera, "animation": moves}).save("moving.toml")
+    return ["moving.toml", *SIZE]
+
+
+def blurred(options: Options) -> Image:
+    samples = ["--samples", "64"] if is_open(options) else []
+    image = rendered(*save_moving(), *samples, *options)
+    assert image.recipe
+    assert image.recipe.scene.is_blurred
+    return image
+
+
+BASES: dict[Way, Render] = {Way.MERGED: merged, Way.LAYERS: relit, Way.SHUTTER: blurred}
 
 
 # --- laws ----------------------------------------------------------------------------------

@@ -8,9 +8,21 @@ import pytest
 from glrt import Renderer, load, merge
 from glrt.cli.commands import run
 from glrt.core.errors import UsageError
+from glrt.image.image import Image
 from glrt.plan.combinations import Way
 from tests.support.renders import same
-from tests.support.ways import ALONE, BASES, LAWS, OPTIONS, Options, parts, plain, rendered
+from tests.support.ways import (
+    ALONE,
+    BASES,
+    LAWS,
+    OPTIONS,
+    Options,
+    blurred,
+    parts,
+    plain,
+    rendered,
+    save_moving,
+)
 
 
 def try_together(one: Way, other: Way) -> None:
@@ -83,6 +95,33 @@ def hybrid_with_probes() -> None:
     assert same(plain([*probes, "--method", "hybrid"]), plain(probes))
 
 
+def resume_blurred() -> None:
+    """Times follow from the numbers of samples alone."""
+    whole = blurred([])
+    blurred(["--samples", "24"]).save("half.exr")
+    assert same(rendered("--resume", "half.exr", "--samples", "64"), whole)
+
+
+def blurred_parts() -> list[Image]:
+    words = [*save_moving(), "--samples", "60"]
+    images = [rendered(*words, "--part", f"{k}/3") for k in (1, 2, 3)]
+    whole, found = blurred(["--samples", "60"]), merge(images)
+    np.testing.assert_allclose(found.radiance, whole.radiance, rtol=1e-5, atol=1e-6)
+    np.testing.assert_allclose(found.stderr, whole.stderr, rtol=1e-3, atol=1e-6)
+    return images
+
+
+def parts_of_a_blurred_picture() -> None:
+    assert len(blurred_parts()) == 3
+
+
+def merged_and_blurred() -> None:
+    """A merged picture, rendered again."""
+    found = merge(blurred_parts())
+    found.save("merged.exr")
+    assert same(rendered("merged.exr"), found)
+
+
 SPECIAL: dict[frozenset[Way], Callable[[], None]] = {
     frozenset({Way.RESUME, Way.PART}): resume_a_part,
     frozenset({Way.RESUME, Way.REUSE}): resume_reuse,
@@ -90,4 +129,7 @@ SPECIAL: dict[frozenset[Way], Callable[[], None]] = {
     frozenset({Way.DENOISE, Way.TIME}): denoised_in_time,
     frozenset({Way.MERGED, Way.PART}): part_of_a_merged_picture,
     frozenset({Way.PROBES, Way.HYBRID}): hybrid_with_probes,
+    frozenset({Way.RESUME, Way.SHUTTER}): resume_blurred,
+    frozenset({Way.PART, Way.SHUTTER}): parts_of_a_blurred_picture,
+    frozenset({Way.MERGED, Way.SHUTTER}): merged_and_blurred,
 }

@@ -154,9 +154,10 @@ def _length(value: float | tuple[float, ...]) -> int:
 
 
 class Animation(Value):
-    """Values that change from frame to frame. Frame 0 is at 0 seconds."""
+    """Values that change from frame to frame."""
 
     fps: float = Field(24.0, gt=0, le=1000, description="frames a second")
+    start: Moment = Field(0.0, description="time of frame 0 in seconds")
     frames: int | None = Field(
         None,
         ge=1,
@@ -168,7 +169,12 @@ class Animation(Value):
     if TYPE_CHECKING:
 
         def __init__(
-            self, *, fps: Number = 24.0, frames: int | None = None, tracks: Any = ()
+            self,
+            *,
+            fps: Number = 24.0,
+            start: Number = 0.0,
+            frames: int | None = None,
+            tracks: Any = (),
         ) -> None: ...
 
     @model_validator(mode="after")
@@ -187,14 +193,14 @@ class Animation(Value):
     @property
     def count(self) -> int:
         """The number of frames."""
-        return int(self._of_last_key) + 1 if self.frames is None else self.frames
+        return int(max(self._of_last_key, 0)) + 1 if self.frames is None else self.frames
 
     @property
     def _of_last_key(self) -> float:
         """Number of the last frame that is not after the last key; a key may be 1e-6 early."""
         last = max((track.times[-1] for track in self.tracks), default=0.0)
-        return last * self.fps + 1e-6
+        return (last - self.start) * self.fps + 1e-6
 
-    def moment(self, frame: int) -> float:
-        """Return the time of a frame in seconds."""
-        return frame / self.fps
+    def moment(self, frame: float) -> float:
+        """Return the time in seconds of a frame, or of a share of the way to the next one."""
+        return self.start + frame / self.fps

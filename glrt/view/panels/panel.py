@@ -219,7 +219,8 @@ def _numbers(camera: Camera) -> dict[str, Any]:
 def _camera(app: App) -> None:
     camera = app.camera
     values = _numbers(camera)
-    names = ("fov", "focus_distance", "defocus_angle", "position", "look_at")
+    blurs = ("shutter",) if app.session.scene.animation else ()
+    names = ("fov", "focus_distance", "defocus_angle", *blurs, "position", "look_at")
     controls, opened = tuple(CAMERA[name] for name in names), app.session.opened.scene.camera
     changes = edited_fields(controls, values, opened=_numbers(opened))
     if changes:

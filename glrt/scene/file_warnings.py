@@ -1,0 +1,45 @@
+"""Warnings about files that a scene names: what is left out of them, or made smaller."""
+
+from collections.abc import Iterator
+
+from glrt.core.text import counted
+from glrt.scene.images.texture_sizes import MOST_TEXELS, sizes_of
+from glrt.scene.materials.base import Opaque
+from glrt.scene.scene import Scene
+from glrt.scene.shapes.mesh import Mesh
+from glrt.scene.summary import few
+
+
+def repeated(scene: Scene) -> Iterator[str]:
+    """Yield a warning for each file that holds triangles twice."""
+    meshes = [thing for thing in scene.objects if isinstance(thing, Mesh)]
+    for file, mesh in {mesh.file: mesh for mesh in reversed(meshes)}.items():
+        if file.triangles is not None and (count := mesh.triangles_of_file.repeated):
+            verb = "repeats another one" if count == 1 else "repeat others"
+            yield f"{file.file}: {counted(count, 'triangle')} {verb}, and each is there once."
+
+
+def unread(scene: Scene) -> Iterator[str]:
+    """Yield a warning for each model file with content that is left out."""
+    meshes = [thing for thing in scene.objects if isinstance(thing, Mesh)]
+    for file in dict.fromkeys(mesh.file for mesh in meshes if mesh.file.unread):
+        where = ", ".join(file.libraries) or file.file
+        yield (
+            f"{where}: of {file.file} is left out: {few(file.unread)}. docs/how-to/models.md says "
+            "what is read; with a `material` of the scene its object has another look."
+        )
+
+
+def large_images(scene: Scene) -> str:
+    """Return a warning of images that are made smaller; empty if none is."""
+    opaque = [it for it in scene.materials.values() if isinstance(it, Opaque)]
+    images = {t.image for it in opaque for t in it.textures.values() if t.image is not None}
+    texels = {image.file: image.texels.shape[:2] for image in images if image.texels is not None}
+    sizes = sizes_of(list(texels.values()))
+    smaller = [file for file, size in zip(texels, sizes, strict=True) if texels[file] != size]
+    if not smaller:
+        return ""
+    return (
+        f"the images of this scene have more than {MOST_TEXELS >> 20} million pixels together: "
+        f"{few(smaller)} {'is' if len(smaller) == 1 else 'are'} made smaller. Use smaller ones."
+    )
