@@ -20,6 +20,7 @@
 #include "bsdfs/scattering.glsl"
 #include "bsdfs/matte.glsl"
 #include "bsdfs/conductor.glsl"
+#include "bsdfs/ggx.glsl"
 #include "bsdfs/metal.glsl"
 #include "bsdfs/dielectric.glsl"
 #include "bsdfs/albedos.glsl"

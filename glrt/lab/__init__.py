@@ -18,7 +18,7 @@ Modules, each importing only what stands above it:
 - marching: grids that are crossed in steps
 - temporal: what is shown from frame to frame
 - sky: a sun of one pixel in an image of the sky
-- rough_glass: the light that rough glass and white plastic keep, a lamp inside glass
+- rough_glass: the light that rough glass, white plastic and brushed metal keep, a lamp in glass
 - textures: coordinates far away, bent normals, layers full of holes
 - points: points of a sampler in ever more dimensions
 - sums: accumulation, random numbers, long paths

@@ -72,6 +72,7 @@ _ALL = (
     Case("sun", "A sun of one pixel in an image of the sky", sky.sun),
     Case("rough", "The light that rough glass keeps", rough_glass.furnace),
     Case("plastic", "The light that white plastic keeps", rough_glass.grazing),
+    Case("brushed", "The light that white brushed metal keeps", rough_glass.brushed),
     Case("frosted", "A lamp inside frosted glass", rough_glass.frosted),
     Case("layers", "Layers that are there in part", textures.layers),
     Case("bumps", "A normal bent by an image", textures.bumps),

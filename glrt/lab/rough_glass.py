@@ -1,6 +1,7 @@
-"""Rough glass and white plastic: the light that they keep, and a lamp inside rough glass."""
+"""Rough glass, white plastic and brushed metal: the light that they keep, a lamp in rough glass."""
 
 import math
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -50,6 +51,55 @@ def grazing(lab: Lab) -> Sweep:
         promise="at most 0.01",
         bound=[0.01] * len(x),
     )
+
+
+_BRUSHED = """
+    mat3 up = frame_around(vec3(0.0, 0.0, 1.0));
+    Vertex even = vertex_of(up, wo, material_at(0), true);
+    Vertex vertex = vertex_along(even, up[0], grain_at(0).stretch);
+    Scattering next = sample_principled(vertex, u.x, u.yz);
+    float kept = next.weight.x;"""
+_ONE_FACET = f"""{_BRUSHED}
+    vec3 h = sample_facets(vertex, u.yz);
+    vec3 wi = 2.0 * dot(wo, h) * h - wo;
+    kept = wi.z > 0.0 ? facets_weight(vertex, wi) : 0.0;"""
+
+
+def brushed(lab: Lab) -> Sweep:
+    """Share of light that white brushed metal loses or gains: the worst of 24 directions."""
+    x = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0]
+    count = lab.count(1 << 15, 1 << 14)
+    ways = {
+        "glrt: what facets lose comes back": _BRUSHED,
+        "facets that scatter once": _ONE_FACET,
+    }
+    errors: dict[str, list[float]] = {name: [] for name in ways}
+    for anisotropy in x:
+        metal = {"type": "principled", "metallic": 1.0, "roughness": ROUGHNESS}
+        materials = {"m": {**metal, "anisotropy": anisotropy}}
+        scene = scene_of([sphere([0, 0, -3], 1, "m")], materials)
+        for name, way in ways.items():
+            errors[name].append(max(_brushed_errors(lab, scene, way, count)))
+    first, *others = errors.items()
+    return Sweep(
+        parameter="anisotropy",
+        measure="light lost or gained\n(share, largest)",
+        x=x,
+        chosen=first,
+        others=dict(others),
+        promise="at most 0.01",
+        bound=[0.01] * len(x),
+    )
+
+
+def _brushed_errors(lab: Lab, scene: Scene, setup: str, count: int) -> Iterator[float]:
+    points = lattice(count)
+    for cosine in (1.0, 0.7, 0.4, 0.1):
+        for angle in (0.0, 0.4, 0.8, 1.2, 1.5, math.pi / 2):
+            sine = math.sqrt(1 - cosine**2)
+            wo = np.tile([sine * math.cos(angle), sine * math.sin(angle), cosine], (count, 1))
+            kept = lab.path("kept", {"u": points, "wo": wo}, World(scene), setup=setup)
+            yield abs(float(kept.astype(np.float64).mean()) - 1)
 
 
 INDEX = 1.5

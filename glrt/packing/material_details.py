@@ -17,7 +17,13 @@ from glrt.scene.materials import facets, gloss
 from glrt.scene.materials.conductors import Conductor
 from glrt.scene.materials.dielectric import Dielectric
 from glrt.scene.materials.facets import STEPS, facet_loss
-from glrt.scene.materials.gloss import ROUGHNESS_STEPS, FacetShares, facet_shares, shares_by_step
+from glrt.scene.materials.gloss import (
+    ROUGHNESS_STEPS,
+    FacetShares,
+    facet_shares,
+    shares_around,
+    shares_by_step,
+)
 from glrt.scene.materials.metal import Metal
 from glrt.scene.materials.principled import Principled
 
@@ -88,10 +94,20 @@ def gloss_rows(facts: SceneFacts) -> dict[str, int]:
 
 
 def _facets(material: Principled) -> list[FacetShares]:
-    """Return the facet shares of each row: one, or one for each step of a textured roughness."""
+    """Return the facet shares of each row: one, or one for each step of a textured roughness.
+
+    Facets that are rougher in one direction have those of their means over all directions.
+    """
     if material.roughness_map is None:
-        return [facet_shares(material.facet_alpha)]
+        return [facet_shares(material.facet_alpha, material.stretch)]
     return _by_step()
+
+
+def _tables(material: Principled, shares: FacetShares) -> list[FacetShares]:
+    """Return the facet shares whose tables the kernel reads, one after the other."""
+    if material.anisotropy > 0:
+        return list(shares_around(material.facet_alpha, material.stretch))
+    return [shares]
 
 
 @cache
@@ -123,18 +139,21 @@ def _pack_gloss(facts: SceneFacts, albedos: Albedos) -> Array:
     rows = np.zeros(len(of_all), STRUCTS["Gloss"])
     first: dict[int, int] = {}  # row of the albedos, by the identity of shares
 
-    def place(shares: FacetShares) -> int:
-        if id(shares) not in first:
-            first[id(shares)] = ALBEDOS * len(albedos)
-            albedos.append((shares.head_on, shares.grazing))
-        return first[id(shares)]
+    def place(*tables: FacetShares) -> int:
+        known_as = id(tables[0])
+        if known_as not in first:
+            first[known_as] = ALBEDOS * len(albedos)
+            albedos.extend((shares.head_on, shares.grazing) for shares in tables)
+        return first[known_as]
 
     parts = {part: len(facts.finishes) + k for k, part in enumerate(glass_parts(facts))}
     for row, (name, it, shares) in zip(rows, of_all, strict=True):
         row["f0"], row["f90"] = it.head_on, it.specular
         row["transmission"], row["glass"] = it.glass_share, parts.get(name, 0)
         row["coat"], row["coat_alpha"] = it.clearcoat, it.coat_alpha
-        row["first"] = row["first_coat"] = place(shares)
+        tables = _tables(it, shares)
+        row["first"] = row["first_coat"] = place(*tables)
+        row["turns"] = len(tables) - 1
         if it.clearcoat:
             row["first_coat"] = place(facet_shares(it.coat_alpha))
         row["kept"], row["brightest"] = shares.kept, max(it.head_on)

@@ -3,6 +3,7 @@
 docs/extending.md explains how to add a type.
 """
 
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -96,6 +97,19 @@ def pack_materials(facts: SceneFacts) -> Array:
             row["details"] = number_of.get(finish.material, row["details"])
     rows["emitter"] = [places.get(_emitter(facts, finish), 0) for finish in finishes]
     return np.concatenate([rows, _glass_parts(facts)])
+
+
+def pack_grains(facts: SceneFacts) -> Array:
+    """Return rows of the struct Grain, one for each finish; none if no material has anisotropy."""
+    finishes = facts.finishes if facts.lobes.anisotropic else ()
+    rows = np.zeros(len(finishes), STRUCTS["Grain"])
+    rows["stretch"] = 1.0
+    for row, finish in zip(rows, finishes, strict=True):
+        material = facts.materials[finish.material]
+        if isinstance(material, Metal | Principled):
+            turn = math.radians(material.anisotropy_rotation)
+            row["turn"], row["stretch"] = (math.cos(turn), math.sin(turn)), material.stretch
+    return rows
 
 
 def _glass_parts(facts: SceneFacts) -> Array:

@@ -85,10 +85,11 @@ def pack_maps(facts: SceneFacts) -> dict[str, Array]:
 def pack_coordinates(facts: SceneFacts, shapes: Sequence[Shape], eye: Array) -> dict[str, Array]:
     """Return rows of the structs Axes, for flat shapes, and Uv and Tangent, for corners.
 
-    Flat shapes are planes, quads and disks. There are no rows without textures, and none of Tangent
-    without textures of normals.
+    Flat shapes are planes, quads and disks. There are no rows without textures or anisotropy, and
+    none of Tangent without textures of normals or anisotropy.
     """
-    is_mapped, is_bumpy = bool(facts.mapped), "normal" in facts.mapped
+    has_grain = bool(facts.lobes.anisotropic)
+    is_mapped, is_bumpy = bool(facts.mapped) or has_grain, "normal" in facts.mapped or has_grain
     flat = [axes for shape in shapes if (axes := shape.texture_axes) is not None]
     axes_rows = np.zeros(len(flat) if is_mapped else 0, STRUCTS["Axes"])
     for row, axes in zip(axes_rows, flat, strict=False):

@@ -4,6 +4,7 @@ Modules, each importing only what stands above it:
 
 - methods: table of methods
 - media: facts about media and their bounds
+- lobes: facts about how materials scatter light
 - particles: targets of particles, and where particles start
 - facts: facts that follow from a scene: counts, lamps, glasses, BVHs
 - lamp_sides: share of particles from each side of a lamp

@@ -119,7 +119,7 @@ class Case:
     @property
     def resamples(self) -> bool:
         """Whether light is resampled; a ray sees through holes at random, so not with holes."""
-        return self.traits.resamples and not self.facts.holed
+        return self.traits.resamples and not self.facts.lobes.holed
 
     @property
     def reuses(self) -> bool:

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cached_property
 
+from glrt.plan.lobes import LobeFacts
 from glrt.plan.media import MediaFacts
 from glrt.plan.particles import ParticleFacts, is_sampled
 from glrt.scene.coincidence import Coincidence, coincidence_of
@@ -13,9 +14,6 @@ from glrt.scene.lit_scene import SKY_GROUP, SUN_GROUP, Finish, media_group
 from glrt.scene.materials.base import Opaque
 from glrt.scene.materials.dielectric import Dielectric
 from glrt.scene.materials.kinds import Material, glass_of
-from glrt.scene.materials.metal import Metal
-from glrt.scene.materials.nothing import Nothing
-from glrt.scene.materials.principled import Principled
 from glrt.scene.scene import Scene
 from glrt.scene.shapes.kinds import KINDS, SAMPLED
 from glrt.scene.shapes.mesh import Mesh
@@ -138,15 +136,14 @@ class SceneFacts:
         return around_camera(self.scene, self.glasses)
 
     @cached_property
+    def lobes(self) -> LobeFacts:
+        """Facts about how the materials of visible surfaces scatter light."""
+        return LobeFacts(self.materials)
+
+    @cached_property
     def media(self) -> MediaFacts:
         """Facts about the media between surfaces."""
         return MediaFacts(self.scene)
-
-    @property
-    def passed(self) -> list[str]:
-        """Names of the materials that light may pass straight: with holes, or no surface."""
-        own = self.materials.items()
-        return [*self.holed, *(name for name, it in own if isinstance(it, Nothing))]
 
     @cached_property
     def particles(self) -> ParticleFacts:
@@ -207,33 +204,10 @@ class SceneFacts:
         return sum(self.shapes[kind] for kind in kinds)
 
     @property
-    def conductors(self) -> list[str]:
-        """Names of the metals whose reflectance depends on the angle."""
-        return [n for n, it in self.materials.items() if isinstance(it, Metal) and it.conductor]
-
-    @property
-    def coated(self) -> list[str]:
-        """Names of the principled materials with a clear coat."""
-        own = {n: it for n, it in self.materials.items() if isinstance(it, Principled)}
-        return [name for name, material in own.items() if material.clearcoat > 0]
-
-    @property
     def mapped(self) -> set[str]:
         """Material keys that some visible material takes from a texture."""
         opaque = [it for it in self.materials.values() if isinstance(it, Opaque)]
         return {key for it in opaque for key in it.textures}
-
-    @property
-    def transmitting(self) -> list[str]:
-        """Names of the principled materials that are partly glass."""
-        own = {n: it for n, it in self.materials.items() if isinstance(it, Principled)}
-        return [name for name, it in own.items() if it.glass]
-
-    @property
-    def holed(self) -> list[str]:
-        """Names of the principled materials with holes: an alpha below 1 or from a texture."""
-        own = {n: it for n, it in self.materials.items() if isinstance(it, Principled)}
-        return [name for name, it in own.items() if it.has_holes]
 
     @property
     def solid_glasses(self) -> list[str]:

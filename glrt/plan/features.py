@@ -1,7 +1,4 @@
-"""The features that a kernel needs for a scene and its settings, and no others.
-
-Each is a field of `Needs`, which says when a kernel has it and why.
-"""
+"""The features that a kernel needs for a scene and its settings, as fields of `Needs`."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, fields
@@ -10,6 +7,7 @@ from typing import Any, NamedTuple
 from glrt.plan import reasons
 from glrt.plan.case import Case
 from glrt.plan.facts import MESH, SceneFacts
+from glrt.plan.lobes import LobeFacts
 from glrt.plan.methods import SPATIAL, TEMPORAL, effect_bits
 from glrt.plan.reasons import Reason, made_of, textured
 from glrt.scene.materials.kinds import TYPES
@@ -54,9 +52,10 @@ def _textured(name: str, *keys: str) -> Any:
     return _row(lambda it: bool(it.facts.mapped & {*keys}), name, textured(*keys))
 
 
-def _made_of(kind: str, name: str, names: Callable[[SceneFacts], list[str]]) -> Any:
+def _made_of(kind: str, name: str, names: Callable[[LobeFacts], list[str]]) -> Any:
     """Return the row of a kind of material, found by the names of such materials."""
-    return _row(lambda it: bool(names(it.facts)), name, made_of(kind, lambda it: names(it.facts)))
+    why = made_of(kind, lambda it: names(it.facts.lobes))
+    return _row(lambda it: bool(names(it.facts.lobes)), name, why)
 
 
 def _followed(kind: str, name: str, names: Callable[[SceneFacts], list[str]]) -> Any:
@@ -132,6 +131,9 @@ class Needs:
     materials: frozenset[str] = _row(lambda it: it.types)
     has_transmission: bool = _made_of("glass in part", "transmission", lambda it: it.transmitting)
     has_coat: bool = _made_of("principled with clearcoat", "coats", lambda it: it.coated)
+    has_anisotropy: bool = _made_of(
+        "material with anisotropy", "anisotropy", lambda it: it.anisotropic
+    )
     has_rough_glass: bool = _row(
         lambda it: it.traits.follows and it.traits.has_rough and bool(it.facts.rough_glasses),
         "rough glass",
@@ -291,8 +293,7 @@ def everything() -> dict[str, bool | int]:
     """Return the constants of a kernel with every feature, to try single functions.
 
     Paths are traced, and no lamp is chosen unless the caller replaces the constants of that choice.
-    The sky has two gradients. It has no image, which would take their place, and there are no
-    probes, which would take the place of paths.
+    The sky has two gradients and no image. There are no probes, which would replace paths.
     """
     plain: Any = {name: row.most for name, row in ROWS.items()}
     sets = {name: frozenset(every) for name, every in SETS.items()}

@@ -118,6 +118,8 @@ def _omissions(facts: SceneFacts, method: str, is_ambient: bool) -> Iterator[str
         yield "hard shadows: lamps are points"
     if not traits.has_rough and any(metal.alpha > 0 for metal in metals):
         yield "rough metal is a mirror"
+    if traits.has_rough and any(getattr(metal, "anisotropy", 0) > 0 for metal in metals):
+        yield "highlights of metal are alike in all directions"
     if not is_local and not traits.has_rough and facts.rough_glasses:
         yield "rough glass is smooth"
     if not is_local and lamps and "lambertian" in kinds and kinds & {"metal", "dielectric"}:

@@ -24,7 +24,7 @@ def _refusals(facts: SceneFacts, settings: Settings) -> Iterator[str]:
         yield f"no {', '.join(SAMPLED)}, sun or sky shines: particles leave these alone"
     if facts.has_many_lights:
         yield f"of {facts.sampled_lamps} lamps, too many to choose among for each particle"
-    if facts.holed:
+    if facts.lobes.holed:
         yield "some surfaces have holes, which particles do not follow yet"
     if facts.scene.hidden_backs:
         yield "some meshes hide their backs, which particles would meet from the other side"

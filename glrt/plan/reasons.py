@@ -184,8 +184,8 @@ def sun(case: Case) -> str:
 
 def resampling(case: Case) -> str:
     """Return the method, and what keeps it from resampling."""
-    if case.traits.resamples and case.facts.holed:
-        holes = listed(case.facts.holed, "alpha below 1")
+    if case.traits.resamples and case.facts.lobes.holed:
+        holes = listed(case.facts.lobes.holed, "alpha below 1")
         return f"{by_method(case)}, {holes}: then it is gather"
     return by_method(case)
 

@@ -117,7 +117,7 @@ def _levels_of_sky(scene: Scene) -> int:
 
 def _passed(facts: SceneFacts) -> int:
     """Holes, and surfaces in other glass, that a segment may pass; a guess from MOST_PASSED on."""
-    passed = {*facts.nested, *facts.passed}
+    passed = {*facts.nested, *facts.lobes.passed}
     shapes = facts.scene.visible if passed else ()
     return min(sum(thing.material in passed for thing in shapes), MOST_PASSED)
 

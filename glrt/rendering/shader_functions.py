@@ -109,7 +109,7 @@ def resources_of(
 
 def _choice(found: SceneFacts) -> dict[str, bool | int]:
     aimed = {"HAS_CONE": bool(found.cones), "HAS_ONE_SIDED": bool(found.one_sided)}
-    aimed |= {"HAS_VERTEX_COLOR": found.is_colored, "HAS_CONDUCTOR": bool(found.conductors)}
+    aimed |= {"HAS_VERTEX_COLOR": found.is_colored, "HAS_CONDUCTOR": bool(found.lobes.conductors)}
     return {
         "CLUSTERS": found.clusters,
         "MANY_LIGHTS": found.has_many_lights,
@@ -117,14 +117,15 @@ def _choice(found: SceneFacts) -> dict[str, bool | int]:
         "HAS_INSTANCE": bool(found.instances),
         "HAS_HIDDEN_BACK": bool(found.scene.hidden_backs),
         "INSTANCE_BITS": found.instance_bits,
-        "HAS_TRANSMISSION": bool(found.transmitting),
+        "HAS_TRANSMISSION": bool(found.lobes.transmitting),
         "HAS_MAP": bool(found.mapped),
-        "HAS_HOLE": bool(found.passed),
+        "HAS_HOLE": bool(found.lobes.passed),
         "HAS_MEDIA": bool(found.media.names),
         "HAS_GRID": bool(found.media.grids),
         "HAS_TRANSFER": bool(found.media.transfers),
         "BOUNDARIES": len(found.media.bounds),
-        "HAS_COAT": bool(found.coated),
+        "HAS_COAT": bool(found.lobes.coated),
+        "HAS_ANISOTROPY": bool(found.lobes.anisotropic),
         "HAS_ROUGH_GLASS": bool(found.rough_glasses),
         "HAS_ATTENUATION": bool(found.tinted),
         "HAS_NESTED": bool(found.nested),
@@ -139,6 +140,6 @@ def no_rows() -> dict[str, Array]:
         ("Axes", "Uv", "Tangent", "Map", "Maps"),
         ("Emitter", "Light", "Cluster", "Aim", "Target", "Sides"),
     )
-    details = ("Material", "Conductor", "Glass", "Gloss", "Albedo", "Medium", "Boundary")
+    details = ("Material", "Grain", "Conductor", "Glass", "Gloss", "Albedo", "Medium", "Boundary")
     others = (*trees, *images, *details, *lamps)
     return {struct: np.zeros(0, STRUCTS[struct]) for struct in (*NUMBERED, *others)}

@@ -60,6 +60,20 @@ Principled principled_of(Material material) {
     return Principled(gloss, f0, f90, again, base);
 }
 
+// The factors of f0 and f90 in the light that facets reflect from a direction. Facets that are rougher along x have
+// tables at even steps of |y| / (r |x| + |y|), where r is the root of how much rougher they are.
+vec2 albedos_around(Vertex vertex, Gloss gloss, vec3 w) {
+    if (!HAS_ANISOTROPY || gloss.turns == 0) return albedos(gloss.first, w.z);
+    float x = sqrt(vertex.stretch) * abs(w.x);
+    float y = abs(w.y);
+    float place = (y > 0.0 ? y / (x + y) : 0.0) * float(gloss.turns);
+    int turn = min(int(place), gloss.turns - 1);
+    vec2 start = albedos(gloss.first + turn * ALBEDO_STEPS, w.z);
+    vec2 end = albedos(gloss.first + (turn + 1) * ALBEDO_STEPS, w.z);
+    vec2 share = start + (place - float(turn)) * (end - start);
+    return share;
+}
+
 // Shares of light from a direction: reflected by facets, as factors of f0 and f90, and lost by facets to each other.
 struct Shares {
     vec2 facets;
@@ -67,8 +81,8 @@ struct Shares {
     float base;  // left by dielectric facets
 };
 
-Shares shares_of(Gloss gloss, float cosine) {
-    vec2 facets = albedos(gloss.first, cosine);
+Shares shares_of(Vertex vertex, Gloss gloss, vec3 w) {
+    vec2 facets = albedos_around(vertex, gloss, w);
     float lost = 1.0 - facets.x - facets.y;
     float taken = gloss.brightest * facets.x + gloss.f90 * facets.y + gloss.again * lost;
     float left = 1.0 - taken;
@@ -109,8 +123,8 @@ struct ColorLobe {
 // Value and density of all parts that are not deltas; h: half vector.
 ColorLobe principled_lobe(Principled it, Vertex vertex, vec3 wi, vec3 h) {
     Gloss gloss = it.gloss;
-    Shares from = shares_of(gloss, wi.z);
-    Shares to = shares_of(gloss, vertex.wo.z);
+    Shares from = shares_of(vertex, gloss, wi);
+    Shares to = shares_of(vertex, gloss, vertex.wo);
     vec3 chances = lobe_chances(it, vertex.wo.z, to);
     float even = wi.z / PI;
     float pdf = chances.z * even;
@@ -120,8 +134,8 @@ ColorLobe principled_lobe(Principled it, Vertex vertex, vec3 wi, vec3 h) {
     float alpha = vertex.material.alpha;
     float edge = schlick_weight(dot(vertex.wo, h));
     if (alpha > 0.0) {
-        float density = pdf_ggx(alpha, vertex.wo, h);
-        value += (it.f0 + (it.f90 - it.f0) * edge) * (density * ggx_weight(alpha, vertex.wo, wi));
+        float density = pdf_facets(vertex, h);
+        value += (it.f0 + (it.f90 - it.f0) * edge) * (density * facets_weight(vertex, wi));
         pdf += chances.y * density;
     }
     if (!HAS_COAT || gloss.coat == 0.0) return ColorLobe(value, pdf);
@@ -165,7 +179,7 @@ Scattering sample_principled(Vertex vertex, float choice, vec2 u) {
     Principled it = principled_of(vertex.material);
     Gloss gloss = it.gloss;
     float cosine = vertex.wo.z;
-    vec3 chances = lobe_chances(it, cosine, shares_of(gloss, cosine));
+    vec3 chances = lobe_chances(it, cosine, shares_of(vertex, gloss, vertex.wo));
     bool is_coat = HAS_COAT && choice < chances.x;
     vec3 h = vec3(0.0, 0.0, 1.0);
     vec3 wi = vec3(-vertex.wo.xy, cosine);
@@ -178,7 +192,8 @@ Scattering sample_principled(Vertex vertex, float choice, vec2 u) {
             vec3 mirrored = normalized(vertex.frame * wi);
             return Scattering(mirrored, weight, 0.0, 1.0, false);
         }
-        h = sample_ggx_normal(alpha, vertex.wo, u);
+        h = sample_ggx_normal(alpha, is_coat ? vertex.wo : stretched(vertex, vertex.wo), u);
+        if (HAS_ANISOTROPY && !is_coat) h = normalized(stretched(vertex, h));
         wi = 2.0 * dot(vertex.wo, h) * h - vertex.wo;
     } else {
         wi = sample_cosine_hemisphere(u);

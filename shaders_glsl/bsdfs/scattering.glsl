@@ -10,6 +10,8 @@ struct Vertex {
     Material material;
     bool is_outside;    // whether wo is on the outer side of the surface
     float eta;          // index of refraction here over there
+    vec3 along;         // world: where HAS_ANISOTROPY, facets are rougher along it, and frame[0] follows it
+    float stretch;      // alpha along it over alpha across; 1: facets are alike all round
 };
 
 struct Scattering {
@@ -23,7 +25,24 @@ struct Scattering {
 // `is_outside`: whether wo is on the outer side of the surface.
 Vertex vertex_of(mat3 frame, vec3 wo, Material material, bool is_outside) {
     float eta = is_outside ? 1.0 / material.ior : material.ior;
-    return Vertex(frame, wo, material, is_outside, eta);
+    return Vertex(frame, wo, material, is_outside, eta, vec3(0.0), 1.0);
+}
+
+// The frame, turned about its normal so that its first column lies along a direction, as far as that can be.
+mat3 frame_along(mat3 frame, vec3 along) {
+    vec3 n = frame[2];
+    vec3 x = along - dot(along, n) * n;
+    float square = dot(x, x);
+    if (!(square > 0.0)) return frame;
+    x /= sqrt(square);
+    return mat3(x, cross(n, x), n);
+}
+
+// The same vertex with facets that are rougher along a direction.
+Vertex vertex_along(Vertex vertex, vec3 along, float stretch) {
+    mat3 frame = frame_along(vertex.frame, along);
+    vec3 wo = to_local(frame, normalized(vertex.frame * vertex.wo));
+    return Vertex(frame, wo, vertex.material, vertex.is_outside, vertex.eta, along, stretch);
 }
 
 // Colour of light that crosses glass, without the absorption inside it. It is not white where the glass is a part

@@ -32,7 +32,10 @@ Vertex vertex_from(Vertex vertex, Normals at, vec3 w) {
     Normals there = normals_towards(at, w);
     mat3 frame = shading_frame(there.facing, HAS_SHADING ? there.shading : there.facing, -w);
     float eta = crosses ? 1.0 / vertex.eta : vertex.eta;
-    return Vertex(frame, to_local(frame, w), vertex.material, vertex.is_outside != crosses, eta);
+    if (HAS_ANISOTROPY) frame = frame_along(frame, vertex.along);
+    vec3 wo = to_local(frame, w);
+    bool is_outside = vertex.is_outside != crosses;
+    return Vertex(frame, wo, vertex.material, is_outside, eta, vertex.along, vertex.stretch);
 }
 
 // V and p of a direction wi of the world; 0 where no path goes there. `facing`: the true normal on the side of wo.

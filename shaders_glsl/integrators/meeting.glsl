@@ -16,6 +16,15 @@ Material part_met(Material material, inout Sampler rng) {
     return part;
 }
 
+// The vertex with the direction in which its facets are rougher, where its material has one.
+Vertex with_grain(Vertex vertex, Ray ray, Surface surface) {
+    Grain grain = grain_at(surface.material);
+    if (grain.stretch == 1.0) return vertex;
+    Tangents tangents = grain_tangents(ray, surface);
+    vec3 along = grain.turn.x * tangents.along + grain.turn.y * tangents.up;
+    return vertex_along(vertex, along, grain.stretch);
+}
+
 // Absorption per unit length behind a surface; `enters`: whether the inside of the object lies behind it.
 vec3 absorption_behind(Path path, Material material, bool enters) {
     if (!HAS_ATTENUATION) return vec3(0.0);
@@ -36,6 +45,7 @@ Meeting meet(Path path, Surface surface, Material material, bool by_shading) {
     vec3 shading = side * (HAS_NORMAL_MAP ? bent_normal(path.ray, surface) : surface.normal);
     mat3 frame = by_shading ? shading_frame(facing, shading, direction) : frame_around(facing);
     Vertex vertex = vertex_of(frame, to_local(frame, -direction), material, side > 0.0);
+    if (HAS_ANISOTROPY) vertex = with_grain(vertex, path.ray, surface);
     uint beyond = path.counts;
     if (is_nested(material)) {
         beyond = counts_beyond(path.counts, material.details, side > 0.0);

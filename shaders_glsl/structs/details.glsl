@@ -35,7 +35,7 @@ struct Gloss {
     float brightest;     // largest channel of f0
     float transmission;  // chance that a path meets its glass
     int glass;           // its row among the materials
-    int spare;           // fills the row
+    int turns;           // steps of a quarter turn between the albedos of facets; 0: facets are alike all round
     float even_base;     // 1 over the share of even light that dielectric facets leave
 };
 

@@ -22,6 +22,13 @@ struct Material {
     float crossed;   // factor, from an image, of the share of the surface that is glass
 };
 
+// How the facets of a material differ by direction; a row for each material, or none at all.
+struct Grain {
+    vec2 turn;      // cosine and sine of the angle from where u grows to the direction of greater roughness
+    float stretch;  // alpha along that direction over alpha across it; 1: alike all round
+    int spare;      // fills the row
+};
+
 // Emission of lamps that do not emit evenly and to both sides.
 struct Emitter {
     vec3 axis;         // unit; v is 1 - cos of the angle to it

@@ -106,6 +106,35 @@ Tangents tangents_of(Ray ray, Surface surface, int set) {
     return Tangents(along, -axes.v);
 }
 
+// The same of unit length and at right angles, for facets that differ by direction. Where no texture coordinates say
+// what u is, it grows along the horizon, as on a sphere; round the axis of a cylinder, and along the edges of a box.
+Tangents grain_tangents(Ray ray, Surface surface) {
+    vec3 normal = surface.normal;
+    vec3 along = vec3(-normal.z, 0.0, normal.x);
+    vec3 up = vec3(0.0, 1.0, 0.0);
+    if (HAS_BOX && is_box(surface.shape)) {
+        Box box = box_at(surface.shape - first_box());
+        along = abs(dot(box.axis_x, normal)) < 0.5 ? box.axis_x : -box.axis_z;
+        up = cross(normal, along);
+    } else if (HAS_CYLINDER && is_cylinder(surface.shape)) {
+        Cylinder cylinder = cylinder_at(surface.shape - first_cylinder());
+        along = cross(cylinder.axis, surface.position - cylinder.center);
+        up = cross(normal, along);
+    } else {
+        Tangents found = tangents_of(ray, surface, 0);
+        if (found.along != vec3(0.0)) {
+            along = found.along;
+            up = found.up;
+        }
+    }
+    along -= dot(along, normal) * normal;
+    float square = dot(along, along);
+    along = square > 0.0 ? along / sqrt(square) : frame_around(normal)[0];
+    vec3 across = cross(normal, along);
+    if (dot(across, up) < 0.0) across = -across;
+    return Tangents(along, across);
+}
+
 // Turns an offset along u and against v of an image into an offset along u and against v of the surface. So an image
 // that is turned or mirrored turns its normals too.
 vec2 turned_back(Map map, vec2 offset) {

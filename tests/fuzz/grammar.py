@@ -83,6 +83,8 @@ PRINCIPLED = {
     "alpha": st.one_of(FRACTIONS, boards(FRACTIONS)),
     "alpha_cutoff": FRACTIONS,
     "clearcoat": FRACTIONS,
+    "anisotropy": FRACTIONS,
+    "anisotropy_rotation": st.floats(-720, 720),
 }
 MATERIALS = st.one_of(
     tables(type=st.just("lambertian"), color=COLORS),

@@ -47,6 +47,7 @@ SLOW = (  # more than a second each, or many kernels
     "crossing",
     *("flicker", "frosted", "denoised", "uncovered", "lag", "bright"),
     *("drawn", "sun", "frames", "bumps", "plastic", "fireflies", "ior"),
+    "brushed",
 )
 SWEEP = Sweep(
     parameter="size",

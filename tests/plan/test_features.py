@@ -71,6 +71,7 @@ MATERIALS: dict[str, dict[str, Any]] = {
     "matte": MATTE,
     "mirror": {"type": "metal", "color": [1, 1, 1], "roughness": 0},
     "rough": {"type": "metal", "color": [1, 1, 1], "roughness": 0.5},
+    "brushed": {"type": "metal", "color": [1, 1, 1], "roughness": 0.5, "anisotropy": 0.5},
     "glass": glass(),
     "frosted": glass(roughness=0.5),
     "pane": glass(thin=True),
@@ -137,7 +138,7 @@ def needs_with(flags: set[str]) -> Needs:
         return plane([0, 0, -3], [0, 0, 1], material)
 
     made_of = {"HAS_MIRROR": "mirror", "HAS_ROUGH_METAL": "rough", "HAS_DIELECTRIC": "glass"}
-    made_of |= {"HAS_ROUGH_GLASS": "frosted", "HAS_PANE": "pane"}
+    made_of |= {"HAS_ROUGH_GLASS": "frosted", "HAS_PANE": "pane", "HAS_ANISOTROPY": "brushed"}
     made_of |= {"HAS_PRINCIPLED": "plastic", "HAS_COAT": "painted", "HAS_TRANSMISSION": "wax"}
     made_of |= {"HAS_ATTENUATION": "tinted", "HAS_NESTED": "water"}
     made_of |= {"HAS_NONE": "none", "HAS_COLOR_MAP": "checked", "HAS_EMISSION_MAP": "glowing"}

@@ -206,6 +206,27 @@ def test_what_gltf_cannot_hold_is_reported() -> None:
         assert words in said
 
 
+def read_again(scene: Scene, folder: Path) -> list[Principled]:
+    """The principled materials of a scene after it was written and read."""
+    found = again(scene, folder).materials.values()
+    return [it for it in found if isinstance(it, Principled)]
+
+
+def test_anisotropy_is_read_again_and_its_direction_on_a_box_is_reported(tmp_path: Path) -> None:
+    brushed = PAINT | {"anisotropy": 0.5, "anisotropy_rotation": 90.0}
+    ball = mesh(icosphere(1), "paint")
+    scene = scene_of([ball], {"paint": brushed}, CAMERA)
+    assert left_out(scene) == ""
+    found = read_again(scene, tmp_path)[-1]
+    assert found.anisotropy == 0.5
+    assert found.anisotropy_rotation == pytest.approx(90)
+    steel = {"type": "metal", "color": [1, 1, 1], "roughness": 0.5, "anisotropy": 0.25}
+    parts = [ball, box([-2, -1, -2], [2, -0.5, 2], "steel")]
+    scene = scene_of(parts, {"paint": brushed, "steel": steel}, CAMERA)
+    assert "the direction of anisotropy on 'box 1', a box" in left_out(scene)
+    assert [it.anisotropy for it in read_again(scene, tmp_path)] == [0.5, 0.25]
+
+
 def test_the_sun_is_read_again(tmp_path: Path) -> None:
     sun = {"direction": [1.0, 2.0, 3.0], "irradiance": [1.0, 2.0, 4.0]}
     read = again(whole(sun=sun, lights={"sun": 0.5}), tmp_path)

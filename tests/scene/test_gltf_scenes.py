@@ -78,6 +78,10 @@ NUMBERS: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
         extended("clearcoat", clearcoatFactor=1, clearcoatRoughnessFactor=0.25),
         {"clearcoat": 1, "clearcoat_roughness": 0.25},
     ),
+    "anisotropy": (
+        extended("anisotropy", anisotropyStrength=0.5, anisotropyRotation=1.75 * math.pi),
+        {"anisotropy": 0.5, "anisotropy_rotation": pytest.approx(-45)},
+    ),
 }
 
 

@@ -29,11 +29,17 @@ KINDS: dict[str, dict[str, Any]] = {
         "clearcoat_roughness": 0.3,
     },
 }
+BRUSHED = "brushed"  # of a kernel of its own, so its cases are slow
+KINDS[BRUSHED] = {**KINDS["coated"], "anisotropy": 0.7}
+kinds = pytest.mark.parametrize(
+    "kind", [pytest.param(k, marks=pytest.mark.slow) if k == BRUSHED else k for k in KINDS]
+)
 COUNT = 20_000
 SETUP = """
     vec3 facing = vec3(0.0, 0.0, 1.0);
     Normals normals = Normals(facing, bent);
     Vertex vertex = vertex_of(frame_around(facing), wi, material_at(0), outside == 1);
+    if (HAS_ANISOTROPY) vertex = vertex_along(vertex, vec3(0.6, 0.8, 0.0), grain_at(0).stretch);
     Sampler rng = make_sampler(uint(i) * 9781u + 7u);
     Particle particle = start_particle(rng);
     particle.path.ray.direction = -wi;
@@ -76,7 +82,7 @@ def scattered(
     return found, float32(wi)
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@kinds
 @pytest.mark.parametrize("outside", [1, 0])
 def test_a_particle_carries_what_the_surface_leaves_of_it(
     call_glsl: CallGlsl, kind: str, outside: int
@@ -91,7 +97,7 @@ def test_a_particle_carries_what_the_surface_leaves_of_it(
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", KINDS)
+@kinds
 def test_what_arrives_by_the_true_normal_is_spread_by_the_other(
     call_glsl: CallGlsl, kind: str
 ) -> None:
@@ -104,7 +110,7 @@ def test_what_arrives_by_the_true_normal_is_spread_by_the_other(
     assert_allclose(found[goes, 0], found[goes, 1], rtol=2e-3)
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@kinds
 @pytest.mark.parametrize("tilt", [0.0, 0.6])
 @pytest.mark.parametrize("outside", [1, 0])
 def test_paths_and_particles_know_the_same_densities(
@@ -133,3 +139,14 @@ def test_metal_turns_by_what_facets_hide(call_glsl: CallGlsl, kind: str) -> None
     exact = (1 + ggx_lambda(alpha, wi)) / (1 + ggx_lambda(alpha, wo))
     assert np.ptp(exact) > 1e-2
     assert_allclose(found[goes, 0], exact, rtol=4e-3)
+
+
+@pytest.mark.slow
+def test_brushed_facets_lie_alike_for_paths_from_either_end(call_glsl: CallGlsl) -> None:
+    """The value times the cosine of the other direction is the same in both."""
+    what = """vec2(eval_material(met, to_local(met.frame, wi)).g * next.direction.z,
+        eval_material(vertex, to_local(vertex.frame, next.direction)).g * wi.z)"""
+    found, _ = scattered(call_glsl, BRUSHED, "vec2", what)
+    goes = found[:, 1] > 1e-3
+    assert goes.mean() > 0.5
+    assert_allclose(found[goes, 0], found[goes, 1], rtol=4e-3)

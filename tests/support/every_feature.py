@@ -22,6 +22,7 @@ STILL_LIFE = {
     **MATERIALS,
     "mirror": {"type": "metal", "color": [0.9, 0.8, 0.7]},
     "brass": {"type": "metal", "color": [0.9, 0.7, 0.3], "roughness": 0.4},
+    "brushed": {"type": "principled", "metallic": 0.8, "anisotropy": 0.7},
 }
 CONSTANTS = {"ambient": 0.1, "diffuse": 0.8, "specular": 0.5, "exponent": 20}
 CHECKER = {"checker": [0.25, 0.75]}
@@ -44,7 +45,7 @@ def still_life() -> Scene:
         sphere([0.5, -0.6, -2.2], 0.4, "mirror"),
         box([-1.6, -1, -3.4], [-0.8, 0.2, -2.8], "brass", rotate=(0, 25, 0)),
         cylinder([1.3, -1, -2.6], [1.1, 0.2, -2.9], 0.3, "gold"),
-        disk([0, 0.3, -3.5], [0.3, 0.2, 1], 0.6, "satin"),
+        disk([0, 0.3, -3.5], [0.3, 0.2, 1], 0.6, "brushed"),
         quad([-0.4, -0.9, -1.6], [0.8, 0, 0], [0, 0.7, -0.2], "pane"),
         sphere([0.1, -0.8, -1.8], 0.2, "frosted"),
         sphere([1.1, 1.4, -2.0], 0.3, "lamp"),

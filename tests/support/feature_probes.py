@@ -36,12 +36,13 @@ PROBES = {
     ),
     "HAS_VERTEX_COLOR": ("shapes/mesh.glsl", "first + shares.y", "first + {} * shares.y"),
     "HAS_MIRROR": ("bsdfs/metal.glsl", "if (mirror) return", "if (mirror && {} > 0.0) return"),
-    "HAS_ROUGH_METAL": ("bsdfs/metal.glsl", "_normal(alpha, vertex.wo", "_normal({}, vertex.wo"),
+    "HAS_ROUGH_METAL": ("bsdfs/metal.glsl", "facets(vertex, u)", "facets(vertex, {} * u)"),
     "HAS_CONDUCTOR": ("bsdfs/conductor.glsl", "= cosine * cosine;", "= {} * cosine * cosine;"),
     "HAS_DIELECTRIC": ("bsdfs/dielectric.glsl", "cos_i = vertex.wo.z", "cos_i = {} * vertex.wo.z"),
     "HAS_ROUGH_GLASS": ("bsdfs/rough_dielectric.glsl", "vertex.eta * cos_o +", "{} * cos_o +"),
     "HAS_PRINCIPLED": ("bsdfs/principled.glsl", "chances.z * even", "{} * chances.z * even"),
     "HAS_COAT": ("bsdfs/principled.glsl", "chances.x * density", "{} * chances.x * density"),
+    "HAS_ANISOTROPY": ("bsdfs/ggx.glsl", "vertex.stretch * w.x", "{} * vertex.stretch * w.x"),
     "HAS_TRANSMISSION": (
         "bsdfs/principled.glsl",
         "share = gloss.transmission",
@@ -134,6 +135,7 @@ NEEDED_TOO = {
     "HAS_TREE": {"HAS_DISK"},
     "HAS_CONDUCTOR": {"HAS_MIRROR"},
     "HAS_COAT": {"HAS_PRINCIPLED"},
+    "HAS_ANISOTROPY": {"HAS_ROUGH_METAL"},
     "HAS_TRANSMISSION": {"HAS_PRINCIPLED", "HAS_DIELECTRIC"},
     "HAS_MAP": {"HAS_COLOR_MAP"},
     "HAS_COLOR_MAP": {"HAS_MAP"},
@@ -168,6 +170,7 @@ NEEDED_TOO = {
 }
 
 GONE_TOO = {
+    "HAS_ROUGH_METAL": {"HAS_ANISOTROPY"},
     "HAS_SPHERE": {"HAS_SPHERE_LIGHT", "HAS_SPHERE_TREE"},
     "HAS_BACKGROUND": {"HAS_HORIZON"},
     "HAS_PRINCIPLED": {"HAS_COAT", "HAS_TRANSMISSION", "HAS_HOLE", "HAS_COVERAGE_MAP", "HAS_NONE"}

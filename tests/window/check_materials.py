@@ -53,6 +53,8 @@ def a_principled_surface_is_edited_live(hand: Hand) -> None:
         ("roughness", 0.1, Cost.RESTART),
         ("clearcoat", 1.0, Cost.RECOMPILE),
         ("clearcoat roughness", 0.0, Cost.RESTART),
+        ("anisotropy", 0.5, Cost.RECOMPILE),
+        ("anisotropy rotation", 90.0, Cost.RESTART),
         ("ior", 2.0, Cost.RESTART),
     ):
         before, hand.session.last_cost = hand.pixels(), None

@@ -19,6 +19,7 @@ from glrt.scene.shapes.mesh import Mesh
 FEATURES: Mapping[str, Any] = {
     "normal": None,
     "clearcoat": 0.0,
+    "anisotropy": 0.0,
     "transmission": 0.0,
     "roughness": 0.0,
     "metallic": 0.0,

@@ -127,6 +127,8 @@ class _Writer:
         rows: dict[str, Any] = {"POSITION": found.points, "NORMAL": found.normals}
         if found.uv is not None:
             rows["TEXCOORD_0"] = found.uv
+        elif getattr(self._scene.materials[item.material], "anisotropy", 0):
+            self._report(f"the direction of anisotropy on {quoted(name)}, a {item.shape}")
         number = self._materials.number(self._scene.finish(item))
         self._node({"name": name, "mesh": self._added(rows, found.faces, number)})
 

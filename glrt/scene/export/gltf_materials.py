@@ -1,5 +1,6 @@
 """Materials of a glTF file that is written."""
 
+import math
 from typing import Any
 
 import numpy as np
@@ -78,14 +79,15 @@ class MaterialWriter:
     def _metal(self, material: Metal, name: str) -> Table:
         self._report(f"the exact angles of {quoted(name)}: metals of glTF brighten at the edge")
         base = {"metallicFactor": 1.0, "roughnessFactor": material.roughness}
+        grain = {"extensions": _grain(material)}
         if material.conductor is None:
-            return {"pbrMetallicRoughness": {**base, **self._color(material, 1.0)}}
+            return {"pbrMetallicRoughness": {**base, **self._color(material, 1.0)}, **grain}
         tint = material.color or (1.0, 1.0, 1.0)
         facing = [
             ((n - 1) ** 2 + k * k) / ((n + 1) ** 2 + k * k) * each
             for n, k, each in zip(*material.conductor, tint, strict=True)
         ]
-        return {"pbrMetallicRoughness": {**base, "baseColorFactor": [*facing, 1.0]}}
+        return {"pbrMetallicRoughness": {**base, "baseColorFactor": [*facing, 1.0]}, **grain}
 
     def _glass(self, material: Dielectric, name: str) -> Table:
         if material.priority is not None:
@@ -145,7 +147,7 @@ class MaterialWriter:
         return found
 
     def _layers(self, material: Principled) -> Table:
-        found: Table = {"KHR_materials_ior": {"ior": material.ior}}
+        found: Table = {"KHR_materials_ior": {"ior": material.ior}, **_grain(material)}
         if material.specular != 1 or material.specular_color != (1, 1, 1):
             tint = {"specularColorFactor": list(material.specular_color)}
             found["KHR_materials_specular"] = {"specularFactor": material.specular, **tint}
@@ -160,6 +162,14 @@ class MaterialWriter:
                 crossing["transmissionTexture"] = self._textures.lying(image, texels, False)
             found |= {"KHR_materials_transmission": crossing, **_volume(material)}
         return found
+
+
+def _grain(material: Metal | Principled) -> Table:
+    """Return the extension of facets that are rougher in one direction."""
+    if not material.anisotropy:
+        return {}
+    turn = {"anisotropyRotation": math.radians(material.anisotropy_rotation)}
+    return {"KHR_materials_anisotropy": {"anisotropyStrength": material.anisotropy, **turn}}
 
 
 def _volume(material: Dielectric | Principled) -> Table:

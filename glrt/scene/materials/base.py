@@ -8,8 +8,26 @@ from pydantic import ConfigDict, Field, model_serializer, model_validator
 from glrt.scene.files.named_images import TextureImage
 from glrt.scene.lights.cone import Cone
 from glrt.scene.materials.textures import Texture, in_one_key, separated, together
-from glrt.scene.values import BLACK, WHITE, Color, Name, Radiance, Tagged, require_tag
+from glrt.scene.values import (
+    BLACK,
+    WHITE,
+    Angle,
+    Color,
+    Fraction,
+    Name,
+    Radiance,
+    Tagged,
+    require_tag,
+)
 from glrt.settings import Cost, Editable
+
+# Facets that are rougher in one direction: docs/explanation/principled.md says where u grows.
+Anisotropy = Annotated[Fraction, Editable(Cost.RECOMPILE)]
+Rotation = Annotated[Angle, Editable(unit="degrees", slider=(-180, 180))]
+
+ANISOTROPY = "how much rougher facets are in one direction: alpha there is alpha + (1 - alpha) x^2"
+ROTATION = "of that direction, in degrees from where u grows, towards where v falls"
+LEAST_ACROSS = 1e-3  # alpha across that direction, as in the sample implementation of glTF
 
 # Alpha of GGX: a narrower lobe is finer than the rounding of a float32 direction, 6e-8.
 SMOOTHEST = 1e-8
@@ -96,7 +114,20 @@ class Opaque(Surface):
         return any(self.emission)
 
 
-def alpha_of(roughness: float) -> float:
-    """Return the alpha of GGX; 0 if float32 cannot distinguish it from a mirror."""
+def alpha_of(roughness: float, anisotropy: float = 0.0) -> float:
+    """Return the alpha of GGX; 0 if float32 cannot distinguish it from a mirror.
+
+    With anisotropy it is the alpha across the direction of greater roughness, and never 0.
+    """
     alpha = roughness**2
+    if anisotropy > 0:
+        return max(alpha, LEAST_ACROSS)
     return alpha if alpha >= SMOOTHEST else 0.0
+
+
+def stretch_of(alpha: float, anisotropy: float) -> float:
+    """Return alpha in the direction of greater roughness over alpha across it.
+
+    The source is KHR_materials_anisotropy of glTF. The result is 1 where no direction is rougher.
+    """
+    return (alpha + (1 - alpha) * anisotropy**2) / alpha if anisotropy > 0 else 1.0

@@ -13,7 +13,7 @@ Array = np.ndarray[Any, np.dtype[np.float64]]
 
 STEPS = 64  # of the root of the cosine, between albedos: ALBEDO_STEPS in the kernel
 LEAST_LOSS = 1e-4  # share of even light: smaller losses are ignored
-_POINTS, _TURN = 4181, 2584  # points and steps of a lattice by neighbours in Fibonacci's sequence
+LATTICE = 4181, 2584  # points and steps of a lattice by neighbours in Fibonacci's sequence
 
 
 class FacetLoss(NamedTuple):
@@ -85,15 +85,16 @@ def _albedo(alpha: float, eta: float) -> Array:
     return np.asarray((share[0] + share[1]).mean(axis=1).clip(0, 1))
 
 
-def visible_normals(alpha: float, wo: Array) -> Array:
+def visible_normals(alpha: float, wo: Array, lattice: tuple[int, int] = LATTICE) -> Array:
     """Return normals visible from wo, (n, 1, 3), whose y is 0: the half with y above 0.
 
-    They are (n, _POINTS, 3). Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps",
-    2023.
+    They are (n, points, 3), where `lattice` gives points and steps. Dupuy and Benyoub, "Sampling
+    Visible GGX Normals with Spherical Caps", 2023.
     """
-    points = np.arange(_POINTS)
-    u = (points * _TURN % _POINTS + 0.5).reshape(1, -1, 1) / _POINTS / 2
-    v = (points + 0.5).reshape(1, -1, 1) / _POINTS
+    count, step = lattice
+    points = np.arange(count)
+    u = (points * step % count + 0.5).reshape(1, -1, 1) / count / 2
+    v = (points + 0.5).reshape(1, -1, 1) / count
     stretched = wo * [alpha, alpha, 1]
     stretched /= np.linalg.norm(stretched, axis=-1, keepdims=True)
     z = (1 - v) * (1 + stretched[..., 2:]) - stretched[..., 2:]

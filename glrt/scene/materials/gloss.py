@@ -3,6 +3,7 @@
 shaders_glsl/bsdfs/principled.glsl looks it up.
 """
 
+import math
 from functools import lru_cache
 from typing import Any, NamedTuple
 
@@ -38,8 +39,14 @@ class FacetShares(NamedTuple):
 
 
 @lru_cache(maxsize=128)
-def facet_shares(alpha: float) -> FacetShares:
-    """Return the shares of facets that scatter light once."""
+def facet_shares(alpha: float, stretch: float = 1.0) -> FacetShares:
+    """Return the shares of facets that scatter light once.
+
+    With a `stretch`, alpha is that many times as large along x, and the shares are means over all
+    directions around the normal.
+    """
+    if stretch != 1:
+        return _mean_around(alpha, stretch)
     root = np.linspace(0, 1, STEPS + 1)
     grazing = (1 - root**2) ** 5
     head_on = 1 - grazing
@@ -65,6 +72,65 @@ def shares_by_step() -> dict[str, Array]:
         columns = [np.interp(steps, _KNOTS, column) for column in rows.T]
         found[name] = np.stack(columns, axis=1)
     return found
+
+
+TURNS = 8  # steps of a quarter turn between tables: albedos_around in the kernel
+_FEW = (610, 377)  # points and steps of a lattice, as in visible_normals
+
+
+@lru_cache(maxsize=32)
+def shares_around(alpha: float, stretch: float) -> tuple[FacetShares, ...]:
+    """Return the shares of facets with `stretch` times the alpha along x, TURNS + 1 of them.
+
+    The first is for light whose direction lies over the x axis, the last for light over the y axis.
+    The steps are even in |y| / (r |x| + |y|), where r is the root of `stretch`.
+    """
+    cosine = np.maximum(np.linspace(0, 1, STEPS + 1) ** 2, 1e-9)
+    places = np.arange(TURNS + 1) / TURNS
+    angles = np.arctan2(math.sqrt(stretch) * places, 1 - places)
+    return tuple(FacetShares.of(*_drawn(alpha, stretch, cosine, angle)) for angle in angles)
+
+
+def _mean_around(alpha: float, stretch: float) -> FacetShares:
+    """Return the mean of `shares_around` over a quarter turn; they are linear between steps."""
+    shares = shares_around(alpha, stretch)
+    angle = (np.arange(10_000) + 0.5) / 10_000 * math.pi / 2
+    place = TURNS * np.sin(angle) / (np.sin(angle) + math.sqrt(stretch) * np.cos(angle))
+    weights = np.maximum(1 - np.abs(place[:, None] - np.arange(TURNS + 1)), 0).mean(axis=0)
+    tables = ([getattr(it, name) for it in shares] for name in ("head_on", "grazing"))
+    return FacetShares.of(*(weights @ np.array(table) for table in tables))
+
+
+def _drawn(alpha: float, stretch: float, cosine: Array, angle: float) -> tuple[Array, Array]:
+    """Return `head_on` and `grazing` for light whose direction is turned by `angle` from x.
+
+    Where x is stretched, facets are those of `alpha`. Visible normals are sampled there.
+    """
+    sine = np.sqrt(1 - cosine**2)
+    wo = np.stack([sine * math.cos(angle), sine * math.sin(angle), cosine], axis=-1)[:, None]
+    x, y = stretch * wo[..., 0], wo[..., 1]
+    across = np.hypot(x, y)
+    half = visible_normals(alpha, np.stack([across, 0 * across, wo[..., 2]], axis=-1), _FEW)
+    both = np.concatenate([half, half * [1, -1, 1]], axis=1)
+    turn = np.arctan2(y, x)
+    normal = np.stack(
+        [
+            stretch * (both[..., 0] * np.cos(turn) - both[..., 1] * np.sin(turn)),
+            both[..., 0] * np.sin(turn) + both[..., 1] * np.cos(turn),
+            both[..., 2],
+        ],
+        axis=-1,
+    )
+    normal /= np.linalg.norm(normal, axis=-1, keepdims=True)
+    along = np.sum(wo * normal, axis=-1, keepdims=True)
+    wi = 2 * along * normal - wo
+    seen, lit = (
+        np.sqrt(1 + alpha**2 * ((stretch * w[..., 0]) ** 2 + w[..., 1] ** 2) / w[..., 2] ** 2)
+        for w in (wo, wi)
+    )
+    share = (wi[..., 2] > 0) * (1 + seen) / (seen + lit)
+    edge = (1 - along[..., 0]).clip(0) ** 5
+    return (share * (1 - edge)).mean(axis=1), (share * edge).mean(axis=1)
 
 
 def _rough(alpha: float, cosine: Array) -> tuple[Array, Array]:

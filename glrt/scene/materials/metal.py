@@ -6,7 +6,15 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 from pydantic import Field, model_validator
 
 from glrt.scene.lights.cone import Cone
-from glrt.scene.materials.base import Opaque, alpha_of
+from glrt.scene.materials.base import (
+    ANISOTROPY,
+    ROTATION,
+    Anisotropy,
+    Opaque,
+    Rotation,
+    alpha_of,
+    stretch_of,
+)
 from glrt.scene.materials.conductors import PRESETS, Conductor, PresetName
 from glrt.scene.materials.textures import Texture
 from glrt.scene.values import BLACK, Color, Fraction, Number, Triple
@@ -40,6 +48,8 @@ class Metal(Opaque):
         0.0,
         description="0: a mirror; the alpha of GGX is its square",
     )
+    anisotropy: Anisotropy = Field(0.0, description=ANISOTROPY)
+    anisotropy_rotation: Rotation = Field(0.0, description=ROTATION)
 
     textured: ClassVar[Mapping[str, bool]] = {"color": True}
 
@@ -53,6 +63,8 @@ class Metal(Opaque):
             ior: Triple | None = None,
             k: Triple | None = None,
             roughness: Number = 0.0,
+            anisotropy: Number = 0.0,
+            anisotropy_rotation: Number = 0.0,
             emission: Triple = BLACK,
             group: str | None = None,
             cone: Cone | Mapping[str, Any] | None = None,
@@ -84,4 +96,9 @@ class Metal(Opaque):
     @property
     def alpha(self) -> float:
         """The alpha of GGX; 0 for a mirror, and if float32 cannot distinguish it from one."""
-        return alpha_of(self.roughness)
+        return alpha_of(self.roughness, self.anisotropy)
+
+    @property
+    def stretch(self) -> float:
+        """Alpha in the direction of greater roughness over alpha across it; 1: alike all round."""
+        return stretch_of(self.alpha, self.anisotropy)

@@ -6,7 +6,15 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 from pydantic import BeforeValidator, Field, model_validator
 
 from glrt.scene.lights.cone import Cone
-from glrt.scene.materials.base import Opaque, alpha_of
+from glrt.scene.materials.base import (
+    ANISOTROPY,
+    ROTATION,
+    Anisotropy,
+    Opaque,
+    Rotation,
+    alpha_of,
+    stretch_of,
+)
 from glrt.scene.materials.dielectric import Dielectric
 from glrt.scene.materials.textures import NormalTexture, Texture, data_texture
 from glrt.scene.values import BLACK, WHITE, Color, Fraction, Length, Number, Triple
@@ -28,6 +36,8 @@ class Principled(Opaque):
     roughness: Annotated[Fraction, Editable()] = Field(
         0.4, description="of metal and dielectric; 0: smooth; the alpha of GGX is its square"
     )
+    anisotropy: Anisotropy = Field(0.0, description=f"{ANISOTROPY}; not with transmission")
+    anisotropy_rotation: Rotation = Field(0.0, description=ROTATION)
     ior: Annotated[float, Field(ge=1, le=1e3), Editable(slider=(1, 3))] = Field(
         1.5, description="index of refraction of what is no metal"
     )
@@ -89,6 +99,8 @@ class Principled(Opaque):
             color: Triple | Texture = WHITE,
             metallic: Number | Texture = 0.0,
             roughness: Number | Texture = 0.4,
+            anisotropy: Number = 0.0,
+            anisotropy_rotation: Number = 0.0,
             ior: Number = 1.5,
             specular: Number = 1.0,
             specular_color: Triple = WHITE,
@@ -109,12 +121,21 @@ class Principled(Opaque):
     @property
     def facet_alpha(self) -> float:
         """The alpha of GGX of the facets; 0 if float32 cannot distinguish it from smooth."""
-        return alpha_of(self.roughness)
+        return alpha_of(self.roughness, self.anisotropy)
+
+    @property
+    def stretch(self) -> float:
+        """Alpha in the direction of greater roughness over alpha across it; 1: alike all round."""
+        return stretch_of(self.facet_alpha, self.anisotropy)
 
     @model_validator(mode="after")
     def _has_glass_that_can_be(self) -> Self:
         if self.transmission > 0 and self.clearcoat > 0:
             raise ValueError("a coat over transmission is not known; leave one of the two out")
+        if self.anisotropy > 0 and self.transmission > 0:
+            raise ValueError("anisotropy of glass is not known; leave it or transmission out")
+        if self.anisotropy > 0 and self.roughness_map:
+            raise ValueError("roughness as a texture with anisotropy is not known; give a number")
         if self.has_holes and self.emits and not (self.is_unlit or self.emission_map):
             raise ValueError("a lamp has no alpha; leave alpha or emission out")
         if self.metallic_map and self.transmission > 0:

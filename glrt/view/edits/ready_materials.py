@@ -27,7 +27,7 @@ _INDICES = {
 _PAINT: dict[str, Any] = {"metallic": 0.7, "roughness": 0.35, "clearcoat": 1.0}
 READY: dict[str, Material] = {
     **{name: Metal.model_validate({"preset": name, "roughness": 0.0}) for name in PRESETS},
-    "brushed aluminium": Metal(preset="aluminium", roughness=0.35),
+    "brushed aluminium": Metal(preset="aluminium", roughness=0.3, anisotropy=0.6),
     **{name: Dielectric(ior=ior) for name, ior in _INDICES.items()},
     "frosted glass": Dielectric(ior=_INDICES["crown glass"], roughness=0.4),
     "window pane": Dielectric(ior=_INDICES["crown glass"], thin=True),

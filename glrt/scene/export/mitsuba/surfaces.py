@@ -62,6 +62,8 @@ class Surfaces:
         if isinstance(material, Metal):
             if material.alpha:
                 self._report(f"the correlated shadows between facets of {quoted(name)}")
+            if material.anisotropy:
+                self._report(f"the anisotropy of {quoted(name)}")
             return both_sides(metal(material, turn))
         image = material.textures.get("color")
         paint = material.color or BLACK
@@ -101,6 +103,8 @@ class Surfaces:
             self._report(f"the exact surface of {quoted(name)}: glTF's principled is not Mitsuba's")
         elif material.facet_alpha:
             self._report(f"the correlated shadows between facets of {quoted(name)}")
+        if material.anisotropy:
+            self._report(f"the anisotropy of {quoted(name)}")
         if material.clearcoat:
             self._report(f"the exact coat of {quoted(name)}")
         if material.specular != 1 or material.specular_color != (1, 1, 1):

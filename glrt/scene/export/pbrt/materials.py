@@ -97,6 +97,8 @@ class Materials:
 
     def _metal(self, name: str, material: Metal) -> Words:
         rough = {"float roughness": material.alpha, **_ALPHA}
+        if material.anisotropy:
+            self._report(f"the anisotropy of {quoted(name)}")
         if material.conductor:
             indices = {"rgb eta": material.conductor.ior, "rgb k": material.conductor.k}
             return {"string type": "conductor", **indices, **rough}
@@ -113,6 +115,8 @@ class Materials:
                 self._report(f"the color of {quoted(name)}, whose glass is clear")
             return self._glass(name, glass)
         self._report(f"the exact surface of {quoted(name)}: pbrt has no principled one")
+        if material.anisotropy:
+            self._report(f"the anisotropy of {quoted(name)}")
         if material.clearcoat:
             self._report(f"the coat of {quoted(name)}")
         if material.transmission:

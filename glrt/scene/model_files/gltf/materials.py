@@ -1,5 +1,6 @@
 """Convert materials of a glTF file to those of a scene."""
 
+import math
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -16,6 +17,7 @@ from glrt.scene.values import LARGEST
 
 _UNREAD = {  # textures that have no counterpart, by extension
     "KHR_materials_specular": ("specularTexture", "specularColorTexture"),
+    "KHR_materials_anisotropy": ("anisotropyTexture",),
     "KHR_materials_clearcoat": (
         "clearcoatTexture",
         "clearcoatRoughnessTexture",
@@ -138,7 +140,7 @@ def _emission(
 def _layers(
     document: Document, textures: TextureTables, given: dict[str, Any], here: str, look: Look
 ) -> None:
-    """Read the extensions of a material: ior, specular, transmission, volume and clearcoat."""
+    """Read the extensions of a material: ior, specular, transmission, volume and others."""
 
     def own(name: str) -> dict[str, Any]:
         found = document.extension(given, f"KHR_materials_{name}", here) or {}
@@ -168,6 +170,13 @@ def _layers(
     coat = own("clearcoat")
     look.table["clearcoat"] = value(coat, "clearcoatFactor", 0)
     look.table["clearcoat_roughness"] = value(coat, "clearcoatRoughnessFactor", 0)
+    grain = own("anisotropy")
+    if strength := value(grain, "anisotropyStrength", 0):
+        turn = number(grain.get("anisotropyRotation", 0), f"{here}: anisotropyRotation")
+        look.table["anisotropy"] = strength
+        look.table["anisotropy_rotation"] = math.degrees(math.remainder(turn, math.tau))
+        if isinstance(look.table["roughness"], dict):
+            _leave_out(look, "anisotropy", "anisotropy with an image of roughness")
     if transmission:
         image = textures.table(crossed.get("transmissionTexture"), f"{here}: transmissionTexture")
         factor = {**image, "channel": "r", "factor": transmission} if image else transmission
@@ -178,13 +187,18 @@ def _layers(
 def _fit_glass(look: Look) -> None:
     """Leave out what glass of a scene cannot be combined with."""
     if look.table["clearcoat"]:
-        look.table["clearcoat"] = 0.0
-        look.unread.append("clearcoat over transmission")
+        _leave_out(look, "clearcoat", "clearcoat over transmission")
+    if look.table.get("anisotropy"):
+        _leave_out(look, "anisotropy", "anisotropy of transmission")
     if isinstance(look.table["metallic"], dict):
-        look.table["metallic"] = 0.0
-        look.unread.append("metallicRoughnessTexture with transmission")
+        _leave_out(look, "metallic", "metallicRoughnessTexture with transmission")
     if look.table["thin"]:
         make_pane(look)
+
+
+def _leave_out(look: Look, key: str, told: str) -> None:
+    look.table[key] = 0.0
+    look.unread.append(told)
 
 
 def dye_unlit(look: Look, colors: NDArray[np.float64]) -> None:
