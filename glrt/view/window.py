@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable
+from functools import partial
 
 import moderngl
 from imgui_bundle import hello_imgui, imgui, immapp
@@ -10,6 +11,7 @@ from glrt.core.errors import ContextError, GlrtError
 from glrt.gpu.context import Pipeline
 from glrt.gpu.glsl import shader_files
 from glrt.image.sources import STRICT, FileRules
+from glrt.rendering.history.temporal import Way
 from glrt.rendering.screen.aov_view import AovView
 from glrt.rendering.screen.false_colors import FalseColors
 from glrt.rendering.screen.probe_balls import ProbeBalls
@@ -21,6 +23,7 @@ from glrt.view.app import App
 from glrt.view.bars.framed import draw_picture
 from glrt.view.event_wait import EventWait
 from glrt.view.file_watch import Watch
+from glrt.view.kernel_notes import driver_of
 from glrt.view.messages import Messages
 from glrt.view.native import Native
 from glrt.view.opengl import INSTEAD, window_options, window_version, wrap_window
@@ -175,7 +178,8 @@ class Window:
         self._start = StartScreen(Thumbnails(context.gl))
         self.app.messages.complain(problem)
         self.app.leave = self._leave
-        self.app.files.aside.driver = context.renderer, session.pipeline
+        session.moving.use(Way(preferences.temporal, preferences.predictor))
+        self.app.files.aside.driver = partial(driver_of, session)
         if self._later:
             self.app.files.aside.begin(*self._later)
             self.app.files.aside.refuse = self._refuse
@@ -267,10 +271,8 @@ class Window:
         self.recovery.end(is_interrupted=self._interruption.signal is not None)
         self.app.keep_preferences()
         self.app.pair.go_on(False)
-        self.app.show.release()
-        self._start.release()
-        self.app.paths.release()
-        self.app.silhouette.release()
+        for part in (self.app.show, self._start, self.app.paths, self.app.silhouette):
+            part.release()
         self.app.files.dialogs.close()
         self.app.session.release()
 
