@@ -10,6 +10,7 @@ from contextlib import contextmanager
 from functools import cached_property, lru_cache
 from itertools import count
 from pathlib import Path
+from threading import Lock
 from typing import NamedTuple
 
 from glrt.core.errors import RenderError
@@ -24,6 +25,7 @@ _NO_FUNCTION = ("struct ", "layout", "uniform ", "buffer ")  # beginnings of oth
 # Mesa, AMD, Apple: "0:17(4): error"; NVIDIA: "0(17) : error"; glslang: "ERROR: 0:17:".
 _LOCATION = re.compile(r"\b0[:(](\d+)(?:\(\d+\)|\))?(?: ?:)?")
 _texts: dict[Path, str] = {}  # texts of files that have been read
+ASSEMBLED = 8  # shaders whose lines are kept: a kernel has some 7,000, which take 0.2 s
 _editions = count(1)
 _edition = [0]  # number of the edition that is read
 
@@ -53,19 +55,14 @@ class Source:
         Files are read when the text is first needed. Sources with the same `key` have the same
         text.
         """
-        head = [f"#version {version}", *map(_declare, (constants or {}).items())]
-        self._head, self._entry, self._texts = head, entry, texts or {}
-        self.key = (entry, version, *(constants or {}).items(), *self._texts.items(), _edition[0])
+        head = f"#version {version}", *map(_declare, (constants or {}).items())
+        self._head, self._entry, self._texts = head, entry, tuple((texts or {}).items())
+        self.key = (entry, version, *(constants or {}).items(), *self._texts, _edition[0])
 
     @cached_property
     def lines(self) -> list[Line]:
         """The lines, each with its origin; RenderError if a file is missing."""
-        lines = [Line(line, "prelude") for line in self._head]
-        for line in _Files(self._texts).expand(self._entry, "the kernel"):
-            if _file(line.origin) != _file(lines[-1].origin):
-                lines.append(Line(f"// {line.origin}", line.origin))
-            lines.append(line)
-        return lines
+        return [*_assembled(self._head, self._entry, self._texts)]
 
     @property
     def text(self) -> str:
@@ -130,6 +127,43 @@ def with_precise_floats(text: str) -> str:
     return "\n".join(lines)
 
 
+def _assembled(
+    head: tuple[str, ...], entry: str, texts: tuple[tuple[str, str], ...]
+) -> tuple[Line, ...]:
+    """Return the lines of a shader, those of before if its files hold the same texts."""
+    with _assembling:
+        kept = _kept.pop((head, entry, texts), None)
+        if not kept or not kept.is_of_these_files():
+            files = _Files(dict(texts))
+            lines = [Line(line, "prelude") for line in head]
+            for line in files.expand(entry, "the kernel"):
+                if _file(line.origin) != _file(lines[-1].origin):
+                    lines.append(Line(f"// {line.origin}", line.origin))
+                lines.append(line)
+            kept = _Assembled(tuple(lines), files.were_read)
+        _kept[head, entry, texts] = kept
+        while len(_kept) > ASSEMBLED:
+            _kept.pop(next(iter(_kept)))
+    return kept.lines
+
+
+class _Assembled(NamedTuple):
+    """The lines of a shader, and the texts of the files that they were taken from."""
+
+    lines: tuple[Line, ...]
+    were_read: dict[str, str]
+
+    def is_of_these_files(self) -> bool:
+        try:
+            return all(read(name) == text for name, text in self.were_read.items())
+        except OSError:
+            return False
+
+
+_kept: dict[tuple[object, ...], _Assembled] = {}  # the most recently used last
+_assembling = Lock()
+
+
 def _text_of(path: Path) -> str:
     if path not in _texts:
         _texts[path] = path.read_text("utf-8", errors="replace")
@@ -153,6 +187,7 @@ class _Files:
     def __init__(self, texts: Mapping[str, str]) -> None:
         self._texts = texts
         self._seen: set[str] = set()
+        self.were_read: dict[str, str] = {}  # texts of the files of the folder, by name
 
     def expand(self, name: str, wanted_by: str) -> list[Line]:
         """Return the lines of a file, with included files where they are first named."""
@@ -171,7 +206,8 @@ class _Files:
         if name in self._texts:
             return self._texts[name]
         try:
-            return read(name)
+            text = self.were_read[name] = read(name)
+            return text
         except OSError as error:
             problem = error.strerror or "cannot be read"
             raise RenderError(f"{wanted_by}: the shader file '{name}': {problem}") from error

@@ -10,10 +10,14 @@ from glrt.scene.scene import Scene
 _ready: list[tuple[Any, Apart, SceneTree | None]] = []  # one at most, with the objects it is of
 
 
-def build_ahead(scene: Scene, apart: Apart) -> None:
-    """Build the BVH of a scene for the next renderer of its objects; the one before is dropped."""
+def build_ahead(scene: Scene, apart: Apart) -> SceneTree | None:
+    """Build the BVH of a scene for the next renderer of its objects, and return it.
+
+    The one that was built ahead before is dropped.
+    """
     tree = tree_of(SceneFacts(scene, apart))
     _ready[:] = [(scene.objects, apart, tree)]
+    return tree
 
 
 def ready_or_new(facts: SceneFacts, before: SceneTree | None) -> SceneTree | None:

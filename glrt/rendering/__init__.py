@@ -4,6 +4,7 @@ Modules, each importing only what stands above it:
 
 - passes: passes over the pixels of a picture, as values
 - pipelines: compute or fragment pipeline
+- plan_shaders: the shaders of a plan, without a driver
 - shader_functions: calls of shader functions with a scene
 - schedule: work per dispatch
 - device_scene: a scene in driver memory, and its kernel source

@@ -42,6 +42,7 @@ from glrt.rendering.pipelines import (
     tier_for,
     upload,
 )
+from glrt.rendering.plan_shaders import constants_of
 from glrt.rendering.schedule import DispatchRange, stride_of
 
 SLOTS = block_of("Slot")
@@ -84,9 +85,7 @@ class DeviceScene:
         self._arrays = with_particles(_packed(plan.facts, self._tree, before), plan)
         self._counts = {name: len(rows) for name, rows in self._arrays.items()}
         self.grid = plan.grid
-        variant = options.variant.constants
-        stack = {"TREE_STACK": self._tree.stack if self._tree else 0}
-        self._constants = {**plan.needs.constants(), **plan.constants(), **stack, **variant}
+        self._constants = constants_of(plan, self._tree, options.variant)
         # Rounds of loops through trees, passed surfaces and grids are a guess: samples may be lost.
         facts = plan.facts
         self._may_lose = bool(facts.has_trees or facts.lobes.passed or facts.media.grids)

@@ -16,6 +16,7 @@ Modules, each importing only what stands above it:
 - viewport: the picture, picking, and moves of the camera
 - compared_picture: picture A, rendered next to B
 - messages: messages and questions
+- kernel_notes: notes on kernels that a driver keeps compiled
 - scene_compiler: another process that compiles the kernel of a scene
 - opening: a large scene that a thread reads
 - file_places: places of files

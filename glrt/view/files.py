@@ -183,6 +183,8 @@ class Files:
         """Take the scene that a thread has read; reload a file that another program has changed."""
         with self.messages.reporting():
             self.aside.follow(self._opened)
+        if self.aside.note and self.session.renderer and not self.session.is_behind:
+            self.aside.learn(self.session.taken)
         if not (self.watch and self.watch.has_changed(now)):
             return
         if self.is_lost:

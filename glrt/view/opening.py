@@ -10,6 +10,10 @@ from glrt.core.stages import listened
 from glrt.core.text import escaped
 from glrt.image.sources import STANDARD_INPUT, STRICT, FileRules, load_recipe
 from glrt.packing.ready_tree import build_ahead
+from glrt.packing.scene_tree import SceneTree
+from glrt.plan.plan import prepare
+from glrt.rendering.pipelines import KernelOptions
+from glrt.rendering.plan_shaders import shaders_of
 from glrt.scene.loading.scene_files import files_of
 from glrt.scene.model_scene import is_model
 from glrt.scene.scene import Scene
@@ -17,7 +21,8 @@ from glrt.scene.scenefile.catalog import PICTURES, find
 from glrt.scene.scenefile.toml import read_scene
 from glrt.settings import RenderSettings, settings_for
 from glrt.view.edits.edited_state import State
-from glrt.view.scene_compiler import Driver, compile_for
+from glrt.view.kernel_notes import Driver, Note
+from glrt.view.scene_compiler import compile_for
 
 Found = tuple[Scene, RenderSettings]
 Finish = Callable[[Scene, RenderSettings], Found]
@@ -73,10 +78,12 @@ class Opening:
     ) -> None:
         """`finish` changes scene and settings once they are read, on the thread.
 
-        With a driver, another process then compiles the kernel for it.
+        With a driver, another process then compiles the kernel for it, unless a note says that the
+        driver has it.
         """
         self.source, self.rules = source, rules
         self.stage, self.share = BEGINNING, 0.0
+        self.note: Note | None = None  # on its kernel
         self._finish, self._driver = finish, driver
         self._found: Found | None = None
         self._problem: Exception | None = None
@@ -111,22 +118,31 @@ class Opening:
             with listened(self._hear):
                 scene, recipe = load_recipe(self.source, self.rules)
                 self._hear("tree", 0.0)
-                build_ahead(scene, "moved")
+                tree = build_ahead(scene, "moved")
                 found = self._finish(scene, recipe or scene.render)
                 if self._driver:
-                    self._compile(*found, self._driver)
+                    self._compile(*found, tree, self._driver)
                 self._found = found
         except _EndedError:
             pass
         except (GlrtError, ValueError, OSError, MemoryError) as error:
             self._problem = error
 
-    def _compile(self, scene: Scene, given: RenderSettings, driver: Driver) -> None:
+    def _compile(
+        self, scene: Scene, given: RenderSettings, tree: SceneTree | None, driver: Driver
+    ) -> None:
         settings = settings_for(given, crop=None, denoise="none")
-        layering = "none" if driver[1] == "fragment" else State(scene, settings).layering
+        layering = "none" if driver.pipeline == "fragment" else State(scene, settings).layering
         heard = partial(self._hear, "compiling", 0.0)
         heard()
-        compile_for((scene, settings, layering, driver), heard)
+        try:
+            plan = prepare(scene, settings, layering, apart="moved")
+            options = KernelOptions(driver.pipeline, "generic")
+            self.note = Note(shaders_of(plan, tree, options, driver.uniform_bytes), driver)
+        except GlrtError:  # the window says what is wrong, as it does after an edit
+            return
+        if not self.note.is_there:
+            compile_for((scene, settings, layering, driver), heard)
 
     def _hear(self, stage: str, share: float) -> None:
         if self._is_ended:
@@ -141,18 +157,25 @@ class Aside:
         """Begin without one; `refuse` gets the problem of a scene in place of an exception."""
         self.opening: Opening | None = None
         self.refuse: Callable[[GlrtError], object] | None = None
-        self.driver: Driver | None = None  # to compile the kernel for, in another process
+        self.driver: Callable[[], Driver] | None = None  # to compile for, in another process
+        self.note: Note | None = None  # on the kernel of the scene that was taken last
 
     def begin(self, source: str, rules: FileRules = STRICT, finish: Finish = as_read) -> None:
         """Let a thread read a scene, in place of the one that it reads."""
         self.end()
-        self.opening = Opening(source, rules, finish, self.driver)
+        self.opening = Opening(source, rules, finish, self.driver and self.driver())
 
     def end(self) -> None:
         """Give up the scene that a thread reads."""
         if self.opening:
             self.opening.end()
         self.opening = self.refuse = None
+
+    def learn(self, seconds: float) -> None:
+        """Note whether the driver had the kernel of the scene that was taken, by its seconds."""
+        if self.note:
+            self.note.learn(seconds)
+        self.note = None
 
     @property
     def text(self) -> str:
@@ -170,6 +193,7 @@ class Aside:
             return
         refuse = self.refuse
         self.opening = self.refuse = None
+        self.note = ready.note
         try:
             found = ready.result()
         except GlrtError as error:

@@ -11,16 +11,16 @@ from collections.abc import Callable
 from tempfile import TemporaryFile
 
 from glrt.plan.plan import Layering
-from glrt.rendering.passes import Resolved
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
-from glrt.settings import Settings
+from glrt.settings import Cost, Settings
+from glrt.view.kernel_notes import Driver
 from glrt.view.state.compile_ahead import cropped, same_driver
+from glrt.view.state.moving_picture import MovingPicture
 
 PAUSE = 0.1  # seconds between two calls of `goes_on`
 _COMMAND = [sys.executable, "-m", "glrt.view.scene_compiler"]
 
-Driver = tuple[str, Resolved]  # its name, and the pipeline of the window
 Part = tuple[Scene, Settings, Layering, Driver]
 
 
@@ -51,15 +51,19 @@ def compile_for(part: Part, goes_on: Callable[[], object]) -> bool:
 
 
 def compile_part(part: Part) -> None:
-    """Compile the kernel of a part, and render with it: drivers compile at the first dispatch.
+    """Compile the kernels of a part, and render: drivers compile at the first dispatch.
 
     Raises ContextError if the driver of the window cannot be opened in this process.
     """
-    scene, settings, layering, (name, pipeline) = part
-    context = same_driver(name, pipeline)
+    scene, settings, layering, driver = part
+    context, pipeline = same_driver(driver.name, driver.pipeline), driver.pipeline
     small = cropped(settings)
     renderer = Renderer(scene, small, context, pipeline=pipeline, layering=layering, apart="moved")
     renderer.render(1)
+    history = MovingPicture(context.gl)
+    history.use(driver.way)
+    history.arrive(renderer, Cost.RECOMPILE)
+    history.prepare(renderer, renderer.plan.weights)
 
 
 if __name__ == "__main__":

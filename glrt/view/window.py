@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable
+from functools import partial
 
 import moderngl
 from imgui_bundle import hello_imgui, imgui, immapp
@@ -10,6 +11,7 @@ from glrt.core.errors import ContextError, GlrtError
 from glrt.gpu.context import Pipeline
 from glrt.gpu.glsl import shader_files
 from glrt.image.sources import STRICT, FileRules
+from glrt.rendering.history.temporal import Way
 from glrt.rendering.screen.aov_view import AovView
 from glrt.rendering.screen.false_colors import FalseColors
 from glrt.rendering.screen.probe_balls import ProbeBalls
@@ -22,6 +24,7 @@ from glrt.view.bars.framed import draw_picture
 from glrt.view.boxes.export_box import draw_export
 from glrt.view.event_wait import EventWait
 from glrt.view.file_watch import Watch
+from glrt.view.kernel_notes import driver_of
 from glrt.view.messages import Messages
 from glrt.view.native import Native
 from glrt.view.opengl import INSTEAD, window_options, window_version, wrap_window
@@ -176,7 +179,8 @@ class Window:
         self._start = StartScreen(Thumbnails(context.gl))
         self.app.messages.complain(problem)
         self.app.leave = self._leave
-        self.app.files.aside.driver = context.renderer, session.pipeline
+        session.moving.use(Way(preferences.temporal, preferences.predictor))
+        self.app.files.aside.driver = partial(driver_of, session)
         if self._later:
             self.app.files.aside.begin(*self._later)
             self.app.files.aside.refuse = self._refuse

@@ -11,7 +11,7 @@ from glrt.core.errors import RenderError
 from glrt.core.resources import folder
 from glrt.gpu import glsl
 from glrt.gpu.evaluate import path_files
-from glrt.gpu.glsl import Source, files_reread, read
+from glrt.gpu.glsl import Line, Source, files_reread, read
 from glrt.gpu.program import FragmentKernel, Kernel
 from glrt.gpu.struct_arrays import FILE
 from glrt.rendering.passes import PARTICLES, PATHS, SPLATS, SURFACES, RenderPass, aov_pass
@@ -71,6 +71,34 @@ def test_a_file_is_included_once_where_it_is_first_named(shaders: Path) -> None:
         "prelude",
         *(o for o in origins for _ in "ab"),
     ]
+
+
+def test_lines_are_assembled_once_while_files_and_constants_stay(
+    shaders: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file = shaders / "mine.glsl"
+    file.write_text("int a;\n")
+    entry = {"mine.comp": '#include "mine.glsl"\n'}
+
+    def lines(**constants: bool | int) -> list[str]:
+        source = Source("mine.comp", constants, texts=entry)
+        return [line.text for line in source.lines][1:]
+
+    first = lines(A=1)
+    expanded = list[str]()
+    expand = glsl._Files.expand
+
+    def noted(self: glsl._Files, name: str, wanted_by: str) -> list[Line]:
+        expanded.append(name)
+        return expand(self, name, wanted_by)
+
+    monkeypatch.setattr(glsl._Files, "expand", noted)
+    assert lines(A=1) == first
+    assert expanded == []
+    assert lines(A=True)[0] == "const bool A = true;"
+    file.write_text("int b;\n")
+    with files_reread():
+        assert lines(A=1)[-1] == "int b;"
 
 
 def test_no_include_is_left_for_the_driver() -> None:

@@ -16,8 +16,9 @@ from glrt.packing.ready_tree import build_ahead, ready_or_new
 from glrt.plan.facts import SceneFacts
 from glrt.settings import settings_for
 from glrt.view import opening
-from glrt.view.opening import Aside, Opening, is_large
-from glrt.view.scene_compiler import Driver, Part, compile_for
+from glrt.view.kernel_notes import Driver
+from glrt.view.opening import Aside, Finish, Opening, as_read, is_large
+from glrt.view.scene_compiler import Part, compile_for
 
 CUBE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
 SCENE = "[camera]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\n[background]\ncolor = [1, 1, 1]\n"
@@ -124,7 +125,7 @@ def test_a_large_scene_is_compiled_before_it_is_ready(
     model: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     parts, stages = list[Part](), list[str]()
-    driver: Driver = ("llvmpipe", "compute")
+    driver = Driver("llvmpipe", "compute")
 
     def compiled(part: Part, goes_on: Callable[[], object]) -> bool:
         goes_on()
@@ -143,9 +144,41 @@ def test_a_large_scene_is_compiled_before_it_is_ready(
     assert parts[0][2] == "groups"
 
 
+def test_a_kernel_that_the_driver_keeps_is_not_compiled_again(
+    model: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    parts = list[Part]()
+    monkeypatch.setattr(opening, "compile_for", lambda part, _: parts.append(part))
+    driver, aside = Driver("llvmpipe", "compute"), Aside()
+    aside.driver = lambda: driver
+
+    def opened(seconds: float, finish: Finish = as_read) -> int:
+        aside.begin(str(model), STRICT, finish)
+        assert aside.opening
+        aside.opening._thread.join()
+        aside.follow(lambda *_: None)
+        aside.learn(seconds)
+        return len(parts)
+
+    assert opened(0.1) == 1
+    assert opened(9.0) == 1, "the note says that the driver has it"
+    assert opened(0.1) == 2, "it took long, so that the driver has lost it"
+    driver = driver._replace(version="another")
+    assert opened(0.1) == 3
+    monkeypatch.setenv("MESA_SHADER_CACHE_DISABLE", "true")
+    assert opened(0.1) == 4
+    assert opened(0.1, lambda scene, given: (scene, settings_for(given, method="naive"))) == 5
+
+
 def test_a_compilation_that_nobody_waits_for_ends(model: Path) -> None:
     scene = load(model)
-    part: Part = (scene, settings_for(scene.render), "none", ("no driver of this name", "compute"))
+    part: Part = (
+        scene,
+        settings_for(scene.render),
+        "none",
+        Driver("no driver of this name", "compute"),
+    )
 
     def give_up() -> None:
         raise KeyError("given up")

@@ -9,7 +9,8 @@ import pytest
 from imgui_bundle import imgui
 
 from glrt.image.sources import load_recipe
-from glrt.view import opening
+from glrt.scene.scene import Scene
+from glrt.view import kernel_notes, opening
 from tests.window.gestures import answer, drop, press, reopen, reported_lines
 from tests.window.hand import Hand, check
 
@@ -60,3 +61,21 @@ def escape_gives_up_a_scene_that_is_read(hand: Hand) -> None:
         gate.set()
         hand.settle()
     assert files.source == before
+
+
+@check
+def a_model_that_is_opened_again_starts_no_process(hand: Hand) -> None:
+    file, files, parts = Path.cwd() / "again.obj", hand.window.app.files, list[Scene]()
+    with held(file) as gate, pytest.MonkeyPatch.context() as patch:
+        gate.set()
+        patch.setattr(kernel_notes, "SLOW", 1e9)  # on a busy machine, and with an empty cache
+        patch.setenv("XDG_CACHE_HOME", str(Path.cwd()))
+        patch.setattr(opening, "compile_for", lambda part, _: parts.append(part[0]))
+        for _ in range(2):
+            hand.there(lambda: files.open(str(file)))
+            hand.until(lambda: files.source == str(file))
+            hand.settle()
+            hand.until(lambda: files.aside.note is None)
+            reopen(hand)
+            hand.settle()
+    assert [scene.meshes for scene in parts] == [parts[0].meshes]

@@ -29,8 +29,8 @@ class MovingPicture:
     def __init__(self, gl: moderngl.Context, mode: Mode = "reset") -> None:
         """Compile and allocate nothing before it is needed."""
         self._gl = gl
-        self._wanted = Way(mode)
-        self._temporal = Temporal(gl, self._wanted)
+        self.way = Way(mode)
+        self._temporal = Temporal(gl, self.way)
         self._begun = 0
 
     def begin(self) -> None:
@@ -53,14 +53,14 @@ class MovingPicture:
         return replace(sized, settings=settings_for(sized.settings, seed=given.seed))
 
     def _other_seed(self, seed: int) -> int:
-        is_needed = self._wanted.mode != "reset"
+        is_needed = self.way.mode != "reset"
         return (seed + self._begun * GOLDEN) & MOST_SEED if is_needed else seed
 
     def use(self, way: Way) -> None:
         """Change the way of using history, and drop the history so far."""
-        if way != self._wanted:
+        if way != self.way:
             self._temporal.release()
-            self._temporal, self._wanted = Temporal(self._gl, way), way
+            self._temporal, self.way = Temporal(self._gl, way), way
 
     def leave(self, renderer: Renderer, weights: Weights, wanted: Settings) -> str:
         """Keep what is shown as history before an edit; returns a refusal of the driver, or "".
@@ -153,7 +153,7 @@ class MovingPicture:
 
     def reports(self, renderer: Renderer | None, wanted: int, number: Number) -> bool:
         """Whether a number of the history, such as the weight of new samples, can be shown."""
-        is_one = number == "history" or self._wanted.mode == OWN_NUMBERS[number]
+        is_one = number == "history" or self.way.mode == OWN_NUMBERS[number]
         return is_one and self.is_shown(renderer, wanted)
 
     def told(self, renderer: Renderer, weights: Weights, number: Number) -> Told | None:

@@ -60,6 +60,7 @@ class Session(ShownPicture):
         self.restarts = 0
         self.rendering = 0.0  # seconds that were spent on the samples so far
         self.last_cost: Cost | None = None
+        self.taken = 0.0  # processor seconds in which the last edit reached the renderer
         self.room = LayerLimits(int(context.gl.info["GL_MAX_TEXTURE_SIZE"]))
         self.context, self._clock = context, clock
         self._announced, self._preview = 0, Preview(clock)
@@ -196,9 +197,10 @@ class Session(ShownPicture):
             self.moving.begin()
             self.surface.is_apt = bool(self.renderer and self.state.moves(self.renderer.scene))
         if self.is_behind:
-            start = self._clock()
+            start, used = self._clock(), time.process_time()
             try:
                 self._apply()
+                self.taken = time.process_time() - used
                 self._full_size = self.settings.size
                 if cost is Cost.RESTART:
                     self._preview.edited(self._clock() - start)
