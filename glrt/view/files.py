@@ -266,9 +266,8 @@ class Files:
 
     def browse_picture(self) -> None:
         """Show a dialog to choose where the picture is saved."""
-        self.dialogs.ask_save(
-            "Save the picture", self.picture_path, PICTURE, ".png", self.ask_save_picture
-        )
+        given = "Save the picture", self.picture_path, PICTURE, ".png"
+        self.dialogs.ask_save(*given, self.ask_save_picture)
 
     def save_paths(self, found: PixelPaths) -> None:
         """Save the paths of a pixel to a new file, which `glrt paths --replay` traces again."""
