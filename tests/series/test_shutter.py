@@ -90,7 +90,7 @@ def test_the_shutter_opens_at_the_moment_of_the_frame() -> None:
 def test_light_groups_move_with_the_rest() -> None:
     tracks = [{"target": "lights.background", "times": [0, 1], "values": [0, 4]}]
     frame = blurred(1.0, animation={"fps": 4, "tracks": tracks}).at_frame(1)
-    found = [frame.in_shutter(share).lights["background"] for share in (0.0, 0.5, 1.0)]
+    found = [frame.in_shutter(share).light_groups["background"] for share in (0.0, 0.5, 1.0)]
     assert found == [1.0, 1.5, 2.0]
 
 
