@@ -233,3 +233,14 @@ def test_what_shows_one_time_is_refused(settings: dict[str, Any], reason: str) -
     wanted = settings_for(SMALL, **settings)
     with pytest.raises(UsageError, match=reason):
         Renderer(blurred(), wanted, opens_shutter=True)
+
+
+@pytest.mark.slow
+def test_paths_are_of_the_moment_when_the_shutter_opens(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    scene = tmp_path / "moving.toml"
+    write_scene(blurred(), scene)
+    size = ["--width", "24", "--height", "16", "--samples", "16"]
+    assert run(["paths", str(scene), "--pixel", "12", "8", *size]) == 0
+    assert "the shutter is open: paths are traced at the moment" in capsys.readouterr().err
