@@ -22,7 +22,7 @@ def render(
 ) -> Image:
     """Render a scene and return the picture.
 
-    With the shutter of the camera open, what its animation moves is blurred.
+    With the shutter of the camera open, whatever the animation of the scene changes is blurred.
     `settings` are fields of Settings; the scene's `[render]` table supplies the others. A `part`
     (k, n) renders the k-th of n parts of the samples, with k from 1; `glrt.merge` joins the parts.
 
@@ -57,7 +57,8 @@ def paths(
     `numbers` selects samples by number, from 0; the default is all. `pixel` is the column and row
     in the full frame, from 0, with row 0 on top. `settings` are fields of Settings; the scene's
     `[render]` table supplies the others. `render` traces the same paths with the same settings:
-    their light adds up to its pixel, bit for bit on software drivers. With caustics "on",
+    their light adds up to its pixel, bit for bit on software drivers. With an open shutter, which
+    `render` alone blurs, the paths are of the moment when it opens. With caustics "on",
     `particles` of the result holds the particles from lamps that reach the pixel, and the paths of
     the 64 brightest.
 

@@ -99,6 +99,8 @@ def _show(arguments: argparse.Namespace) -> int:
         _report("the picture was relit in the window: its light now is traced, not its layers.")
     if recipe and recipe.partition:
         _report(f"the picture is a part of a render: all {settings.samples} samples are traced.")
+    if scene.is_blurred:
+        _report("the shutter is open: paths are traced at the moment when it opens.")
     most = arguments.brightest or 1
     wanted = Selection(arguments.numbers, 0 if arguments.numbers else most, most)
     check_selection(pixel, wanted, settings)

@@ -17,6 +17,7 @@ Modules, each importing only what stands above it:
 - media: depth, turns, colours and bounds of media
 - marching: grids that are crossed in steps
 - temporal: what is shown from frame to frame
+- blur: the blur of what moves while the shutter is open
 - sky: a sun of one pixel in an image of the sky
 - rough_glass: the light that rough glass, white plastic and brushed metal keep, a lamp in glass
 - textures: coordinates far away, bent normals, layers full of holes

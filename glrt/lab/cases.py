@@ -1,6 +1,7 @@
 """Every case of `glrt stress`, by name."""
 
 from glrt.lab import (
+    blur,
     denoising,
     glass,
     lamps,
@@ -55,6 +56,7 @@ _ALL = (
     Case("speed", "History while the camera moves", moving.speed),
     Case("reflection", "History of what a mirror shows", moving.reflection),
     Case("crossing", "History of an object that moves", moving.crossing),
+    Case("blur", "A lamp that passes while the shutter is open", blur.passing),
     Case("step", "History under light that changes", moving.step),
     Case("flicker", "History under light that flickers", moving.flicker),
     Case("uncovered", "History where an edge uncovers a wall", moving.uncovered),

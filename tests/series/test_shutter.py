@@ -90,7 +90,7 @@ def test_the_shutter_opens_at_the_moment_of_the_frame() -> None:
 def test_light_groups_move_with_the_rest() -> None:
     tracks = [{"target": "lights.background", "times": [0, 1], "values": [0, 4]}]
     frame = blurred(1.0, animation={"fps": 4, "tracks": tracks}).at_frame(1)
-    found = [frame.in_shutter(share).lights["background"] for share in (0.0, 0.5, 1.0)]
+    found = [frame.in_shutter(share).light_groups["background"] for share in (0.0, 0.5, 1.0)]
     assert found == [1.0, 1.5, 2.0]
 
 
@@ -233,3 +233,14 @@ def test_what_shows_one_time_is_refused(settings: dict[str, Any], reason: str) -
     wanted = settings_for(SMALL, **settings)
     with pytest.raises(UsageError, match=reason):
         Renderer(blurred(), wanted, opens_shutter=True)
+
+
+@pytest.mark.slow
+def test_paths_are_of_the_moment_when_the_shutter_opens(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    scene = tmp_path / "moving.toml"
+    write_scene(blurred(), scene)
+    size = ["--width", "24", "--height", "16", "--samples", "16"]
+    assert run(["paths", str(scene), "--pixel", "12", "8", *size]) == 0
+    assert "the shutter is open: paths are traced at the moment" in capsys.readouterr().err
