@@ -1,6 +1,6 @@
 """Colours and sizes of the window: its theme, and its scale."""
 
-from imgui_bundle import ImVec2, hello_imgui, imgui
+from imgui_bundle import ImVec2, ImVec4, hello_imgui, imgui
 
 THEMES = {
     "dark": hello_imgui.ImGuiTheme_.darcula_darker,
@@ -30,6 +30,8 @@ class WindowStyle:
         _make_opaque(style, imgui.Col_.popup_bg)
         style.hover_delay_short = TOOLTIP_AFTER
         style.frame_border_size = 1.0  # edges for light boxes on a light ground
+        params = hello_imgui.get_runner_params().imgui_window_params
+        params.background_color = opaque(style.color_(imgui.Col_.window_bg))
         style.scale_all_sizes(scale)
         style.font_scale_main = scale
 
@@ -44,5 +46,9 @@ def _sizes_of(style: imgui.Style) -> dict[str, float | ImVec2]:
 
 def _make_opaque(style: imgui.Style, part: imgui.Col_) -> None:
     """Make a colour of the style opaque, so that a list hides the text below it."""
-    color = style.color_(part)
-    style.set_color_(part, (color.x, color.y, color.z, 1.0))
+    style.set_color_(part, opaque(style.color_(part)))
+
+
+def opaque(color: ImVec4) -> ImVec4:
+    """Return a colour without transparency."""
+    return ImVec4(color.x, color.y, color.z, 1.0)

@@ -1,7 +1,6 @@
 """Main window: its parts, the loop over frames, and shutdown."""
 
 import time
-from collections.abc import Callable
 from functools import partial
 
 import moderngl
@@ -32,7 +31,7 @@ from glrt.view.opening import Later
 from glrt.view.palette.box import Palette
 from glrt.view.panels.confirmations import draw_question
 from glrt.view.panels.key_table import draw_key_overlay
-from glrt.view.panels.layout import Shares
+from glrt.view.panels.layout import Shares, window_part
 from glrt.view.panels.panel import draw_panel
 from glrt.view.panels.plots import draw_figures
 from glrt.view.panels.shortcuts import COMMANDS, draw_keys
@@ -143,10 +142,11 @@ class Window:
         below = hello_imgui.DockingSplit("MainDockSpace", "Below", imgui.Dir.down, figures)
         docking = hello_imgui.DockingParams()
         docking.docking_splits = [side, below]
+        docking.main_dock_space_node_flags = imgui.DockNodeFlags_.none  # it draws no ground
         docking.dockable_windows = [
-            _part(PARTS[0], "Side", lambda: draw_panel(self.app)),
-            _part(PARTS[1], "Below", lambda: draw_figures(self.app)),
-            _part(PARTS[2], "MainDockSpace", self._draw_picture),
+            window_part(PARTS[0], "Side", lambda: draw_panel(self.app)),
+            window_part(PARTS[1], "Below", lambda: draw_figures(self.app)),
+            window_part(PARTS[2], "MainDockSpace", self._draw_picture),
         ]
         return docking
 
@@ -200,8 +200,8 @@ class Window:
         app.pace.frames_per_second = app.preferences.frame_rate or self._rate
         draw_keys(app)
         app.has_list_keys = False  # the list takes them again, if it is drawn
-        for part in self.params.docking_params.dockable_windows[:2]:
-            part.is_visible = not (app.is_picture_alone or app.shows_start)
+        for panel in self.params.docking_params.dockable_windows[:2]:
+            panel.is_visible = not (app.is_picture_alone or app.shows_start)
         self._shares.keep(PARTS)
         self._style.choose(app.preferences.theme, app.preferences.scale)
         self._native.entitle("glrt" if app.shows_start else app.files.title)
@@ -282,13 +282,6 @@ def _shown(gl: moderngl.Context, denoise: Denoise) -> PictureView:
     if denoise != "none":
         show.denoised, show.view = DenoisedPicture(denoise), "denoised"
     return show
-
-
-def _part(label: str, place: str, draw: Callable[[], None]) -> hello_imgui.DockableWindow:
-    part = hello_imgui.DockableWindow()
-    part.label, part.dock_space_name, part.gui_function = label, place, draw
-    part.can_be_closed = False
-    return part
 
 
 def _configure() -> None:
