@@ -7,9 +7,13 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from glrt.core.errors import SceneError
+from glrt.plan.omissions import omissions
+from glrt.plan.plan import prepare
 from glrt.scene.materials.gloss import TURNS, facet_shares, shares_around
 from glrt.scene.materials.metal import Metal
 from glrt.scene.materials.principled import Principled
+from glrt.settings import Settings
 from tests.conftest import CallGlsl
 from tests.shaders.test_principled import at, upper
 from tests.support.builders import box, cylinder, disk, plane, quad, scene_of, sphere
@@ -203,6 +207,32 @@ def test_alpha_in_one_direction_is_that_of_gltf() -> None:
     assert Metal(color=(1, 1, 1), roughness=0.0, anisotropy=1.0).alpha == 1e-3
     plain = Principled(roughness=0.0, anisotropy_rotation=30.0)
     assert (plain.facet_alpha, plain.stretch) == (0.0, 1.0)
+
+
+CHECKER = {"checker": [0.25, 0.75]}
+
+
+@pytest.mark.parametrize(
+    ("look", "said"),
+    [
+        (PAINT | {"anisotropy": 0.5, "transmission": 0.5}, "anisotropy of glass is not known"),
+        (PAINT | {"anisotropy": 0.5, "roughness": CHECKER}, "give a number"),
+        (METAL | {"anisotropy": 1.5}, "anisotropy"),
+        (METAL | {"anisotropy_rotation": 1e9}, "anisotropy_rotation"),
+        ({"type": "lambertian", "color": [1, 1, 1], "anisotropy": 0.5}, "anisotropy"),
+    ],
+)
+def test_anisotropy_that_cannot_be_is_refused(look: dict[str, Any], said: str) -> None:
+    with pytest.raises(SceneError, match=said):
+        given(look)
+
+
+def test_models_before_path_tracing_say_that_highlights_of_metal_are_round() -> None:
+    told = "highlights of metal are alike in all directions"
+    for look, is_told in ((LOOKS["metal"], True), (METAL, False), (LOOKS["iron"], False)):
+        plan = prepare(given(look)["scene"], Settings())
+        assert (told in omissions(plan.facts, Settings(method="blinn"))) == is_told
+        assert plan.needs.has_anisotropy == ("anisotropy" in look)
 
 
 TRIANGLE = np.eye(3), np.array([[0, 1, 2]])
