@@ -2,16 +2,16 @@
 
 `orbit` plays the same orbit by several modes and reports the error of the picture on the screen,
 and the processor seconds of a frame; `film FILE.webp` shows modes side by side; `bias` reports how
-much darker or brighter they show a still camera, `psnr` how much nearer they are to a reference
-than the film of two samples. There is no window. Seconds are the process's own: next to other work
-only their ratios mean something.
+much darker or brighter they show a still camera, `psnr` how much nearer to a reference they and
+denoisers are than the film of the last view. There is no window. Seconds are the process's own:
+next to other work only their ratios mean something.
 """
 
 import argparse
 import itertools
 import math
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple, get_args
 
@@ -19,11 +19,14 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
+from bench.program import at_least, exit_code_of, parser_of
 from glrt.analysis.motion.playing import Played as Playing
 from glrt.analysis.motion.playing import play, screen_of
-from glrt.analysis.motion.sequences import Sequence, orbit
+from glrt.analysis.motion.sequences import orbit
 from glrt.analysis.reference import Budget, reference_for
+from glrt.denoise.filters import FILTERS
 from glrt.gpu.context import Context, open_context
+from glrt.image.image import Image as Picture
 from glrt.image.sources import load
 from glrt.image.tonemap import expose_and_encode
 from glrt.rendering.history.temporal import WAYS, Temporal, Way
@@ -39,8 +42,11 @@ FILM, SCENES = (176, 132), ("cornell", "lamps")
 MOST_BYTES, QUALITIES = 300_000, (30, 20, 14, 8)
 MODES = ("reset", "reproject")
 Ways = tuple[Way, ...]
+Encoded = NDArray[np.uint8]  # (H, W, 3), as on a screen
 MOST_SEED = 0xFFFFFFFF
 FRAME: dict[str, Any] = {"width": 128, "height": 96, "sampler": "independent"}
+TRUTH = 1024  # samples of the reference of `psnr`
+MOVES = {"still": 0.0, "orbit": 1.0}  # of the camera, degrees a frame
 STILL_VIEWS, STILL_SAMPLES = 40, (1, 4, 16)
 
 
@@ -58,9 +64,19 @@ class Played(NamedTuple):
         return float(np.interp(range(FRAMES), LOOKS, self.errors).mean())
 
 
+class Compared(NamedTuple):
+    """The pictures that `psnr` compares."""
+
+    ways: Ways
+    filters: Sequence[str]  # denoisers of the film of the last view
+    samples: int  # of a pixel, a frame
+    method: Method | None  # None: that of the scene
+    folder: Path | None  # for the pictures that are compared
+
+
 def main(arguments: list[str] | None = None) -> int:
     """Measure orbits, or make the film; returns the exit code."""
-    parser = argparse.ArgumentParser(prog="python -m bench.redraw", description=__doc__)
+    parser = parser_of("redraw", __doc__)
     parser.add_argument("task", choices=["orbit", "film", "bias", "psnr"])
     parser.add_argument("file", nargs="?", type=Path, default=Path("redraw.webp"))
     parser.add_argument("--scene", nargs="+", default=SCENES)
@@ -69,20 +85,35 @@ def main(arguments: list[str] | None = None) -> int:
         "--method", choices=get_args(Method), help="of `psnr`; default: of the scene"
     )
     parser.add_argument("--mode", nargs="+", default=MODES, choices=WAYS)
-    parsed = parser.parse_args(arguments)
+    parser.add_argument(
+        "--samples", type=at_least(1), default=2, metavar="N", help="of a view of `psnr`"
+    )
+    parser.add_argument(
+        "--by",
+        nargs="+",
+        default=(),
+        choices=[*FILTERS],
+        help="of `psnr`: denoisers, from 4 samples",
+    )
+    parser.add_argument("--pictures", type=Path, metavar="DIR", help="folder for those of `psnr`")
+    return exit_code_of(lambda: _run(parser.parse_args(arguments)))
+
+
+def _run(parsed: argparse.Namespace) -> None:
     context, ways = open_context(), tuple(WAYS[mode] for mode in parsed.mode)
     if parsed.task == "film":
         make_film(parsed.file, context, ways)
-        return 0
+        return
     size = parsed.size[0], parsed.size[1]
     for scene in parsed.scene:
         if parsed.task == "bias":
             print("\n".join(biases(scene, context, ways)))
         elif parsed.task == "psnr":
-            print("\n".join(ratios(scene, context, ways, parsed.method)))
+            by, samples, folder = parsed.by, parsed.samples, parsed.pictures
+            compared = Compared(ways, by, samples, parsed.method, folder)
+            print("\n".join(ratios(scene, context, compared)), flush=True)
         else:
             print("\n".join(told(scene, measure(scene, size, context, ways))))
-    return 0
 
 
 def measure(scene: str, size: tuple[int, int], context: Context, ways: Ways) -> list[Played]:
@@ -149,39 +180,68 @@ def biases(scene: str, context: Context, ways: Ways) -> Iterator[str]:
         yield f"{scene}, {way.name}, {samples} samples a view: {bias:+.2%}"
 
 
-def ratios(scene: str, context: Context, ways: Ways, method: Method | None = None) -> Iterator[str]:
+def ratios(scene: str, context: Context, compared: Compared) -> Iterator[str]:
     """Peak signal-to-noise ratios of the last frame, still and on an orbit, as a Markdown table."""
     opened = load(scene)
-    settings = settings_for(opened.render, **FRAME)
-    if method:  # probes go with the sampler of Sobol
-        settings = settings_for(settings, method=method, sampler="sobol")
+    settings = settings_for(opened.render, **FRAME, samples=compared.samples)
+    if compared.method:  # probes go with the sampler of Sobol
+        settings = settings_for(settings, method=compared.method, sampler="sobol")
+    found: dict[str, list[float]] = {}
+    for move, degrees in MOVES.items():
+        scenes = orbit(opened, 24, degrees).scenes[:18]
+        truth = _encoded(_film(scenes[-1], settings, context, TRUTH, MOST_SEED).radiance)
+        pictures = {way.name: _shown(scenes, settings, context, way) for way in compared.ways}
+        for by in compared.filters:
+            given = settings_for(settings, denoise=by)
+            film = _film(scenes[-1], given, context, compared.samples, len(scenes) - 1)
+            pictures[f"film, {by}"] = _encoded(film.denoised().radiance)
+        for name, picture in pictures.items():
+            found.setdefault(name, []).append(_ratio(picture, truth))
+        if compared.folder:
+            save_row({**pictures, "truth": truth}, compared.folder / f"{scene} {move}.png")
     yield f"| {scene} | PSNR, still | gain | PSNR, orbit | gain |"
     yield "|---|---|---|---|---|"
-    found = [
-        [_ratios(orbit(opened, 24, degrees).scenes[:18], settings, context, way) for way in ways]
-        for degrees in (0.0, 1.0)
-    ]
-    for way, still, moving in zip(ways, *found, strict=True):
-        gains = still - found[0][0], moving - found[1][0]
-        yield f"| {way.name} | {still:.1f} | {gains[0]:+.1f} | {moving:.1f} | {gains[1]:+.1f} |"
+    base = next(iter(found.values()))
+    for name, (still, moving) in found.items():
+        gains = still - base[0], moving - base[1]
+        yield f"| {name} | {still:.1f} | {gains[0]:+.1f} | {moving:.1f} | {gains[1]:+.1f} |"
 
 
-def _ratios(scenes: tuple[Scene, ...], settings: Settings, context: Context, way: Way) -> float:
-    """In dB, of the picture on a screen; views of a still camera differ by their numbers."""
-    renderer = Renderer(scenes[-1], settings, context, seed=MOST_SEED)
-    truth = expose_and_encode(renderer.render(1024).image().radiance, 0.0, "none")
-    renderer.update(scenes[0])
-    temporal = Temporal(context.gl, way)
+def _film(scene: Scene, settings: Settings, context: Context, samples: int, seed: int) -> Picture:
+    renderer = Renderer(scene, settings, context, seed=seed, samples=samples)
+    image = renderer.render().image()
+    renderer.release()
+    return image
+
+
+def _shown(scenes: tuple[Scene, ...], settings: Settings, context: Context, way: Way) -> Encoded:
+    """The last picture on the screen; views of a still camera differ by their random numbers."""
+    renderer, temporal = Renderer(scenes[0], settings, context), Temporal(context.gl, way)
     for number, scene in enumerate(scenes):
         temporal.leave(renderer)
         renderer.update(scene, seed=number)
         temporal.arrive(renderer)
-        renderer.render(2)
-    shown = expose_and_encode(screen_of(renderer, temporal), 0.0, "none")
+        renderer.render(settings.samples)
+    shown = _encoded(screen_of(renderer, temporal))
     temporal.release()
     renderer.release()
-    off = (shown.astype(float) - truth) / 255
+    return shown
+
+
+def _encoded(radiance: NDArray[np.float32]) -> Encoded:
+    return expose_and_encode(radiance, 0.0, "none")
+
+
+def _ratio(picture: Encoded, truth: Encoded) -> float:
+    """In dB."""
+    off = (picture.astype(float) - truth) / 255
     return -10 * math.log10(float(np.square(off).mean()))
+
+
+def save_row(pictures: Mapping[str, Encoded], file: Path) -> None:
+    """Write pictures of one size next to each other, in their order."""
+    file.parent.mkdir(parents=True, exist_ok=True)
+    Image.fromarray(np.hstack([*pictures.values()])).save(file)
 
 
 def make_film(file: Path, context: Context, ways: Ways) -> None:
@@ -199,7 +259,7 @@ def make_film(file: Path, context: Context, ways: Ways) -> None:
 def _frames_of(scene: str, context: Context, ways: Ways) -> list[NDArray[np.uint8]]:
     opened = load(scene)
     settings = settings_for(opened.render, width=FILM[0], height=FILM[1])
-    swing: Sequence = orbit(opened, SWING, 1.5)
+    swing = orbit(opened, SWING, 1.5)
     played = [play(swing, Playing(settings, way), context) for way in ways]
     return [
         np.hstack([expose_and_encode(one, 0.0, settings.tonemap) for one in row])

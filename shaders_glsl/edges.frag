@@ -1,6 +1,6 @@
 // The normals of surfaces.glsl, with EDGE among their flags where samples of a pixel may meet several surfaces.
 // There, one of the pixels around is of another object, or off the plane of the surface. If one of these surfaces is a
-// lamp, the flags also contain LAMP_EDGE.
+// lamp, the flags also contain LAMP_EDGE. A cloud fades into what is around it, and has no edge of its own.
 
 #include "passes/surface_flags.glsl"
 
@@ -23,6 +23,7 @@ void main() {
     ivec2 last = textureSize(position, 0) - 1;
     vec4 middle = texelFetch(position, texel, 0);
     marked = texelFetch(normal, texel, 0);
+    if (has_flag(marked, CLOUD)) return;
     bool is_edge = false;
     bool has_lamp = has_flag(marked, LAMP);
     for (int n = 0; n < 9; n += 1) {

@@ -3,6 +3,7 @@
 
 // position: relative to the eye, and 1 + the number of the object; where the ray meets nothing, a unit
 // direction and 0; where the driver cut the search, a unit direction and -1.
+// In a medium whose density varies, position and object are those of middle_volume, and the normal faces the eye.
 // normal: unit, towards the eye, and the bits of passes/surface_flags.glsl.
 struct MiddleSurface {
     vec4 position;
@@ -33,6 +34,10 @@ int surface_flags(Material material, float depth) {
 MiddleSurface middle_surface(ivec2 place) {
     Ray ray = middle_ray(place);
     leave_vertex(0u, 0);  // one random number for all pixels: a partly transparent object is seen whole, or not at all
+    if (HAS_GRID) {
+        vec4 volume = middle_volume(ray);
+        if (volume.w > 0.0 && !loop_was_cut) return MiddleSurface(volume, vec4(-ray.direction, float(CLOUD)));
+    }
     Hit hit = HAS_HOLE ? solid_hit(ray, FAR, NO_SHAPE) : closest_hit(ray);
     if (loop_was_cut) return MiddleSurface(vec4(ray.direction, -1.0), vec4(-ray.direction, 0.0));
     if (hit.shape == NO_SHAPE) return MiddleSurface(vec4(ray.direction, 0.0), vec4(-ray.direction, 0.0));

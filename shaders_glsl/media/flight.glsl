@@ -67,15 +67,6 @@ bool flies_into(inout Flight flight, Medium medium, float distance, inout float 
     return is_met;
 }
 
-// The medium behind the bounds of an object; `medium` itself if the object bounds nothing.
-int medium_behind(int medium, int object, bool enters) {
-    for (int i = 0; i < BOUNDARIES; ++i) {
-        Boundary bounds = boundary_at(i);
-        if (bounds.object == object) return enters ? bounds.inside : bounds.outside;
-    }
-    return medium;
-}
-
 // The share of light that reaches a point from `distance` away, through media and their bounds; 0 where a surface
 // stands between. `lamp`: the shape that the light comes from, or NO_SHAPE.
 vec3 light_left(Ray ray, float distance, int lamp, int medium) {

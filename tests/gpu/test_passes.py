@@ -54,7 +54,8 @@ def test_every_shader_file_is_compiled_by_a_test() -> None:
         *("raster.glsl", "raster.vert", "raster.frag"),  # by tests/rendering/test_raster.py
         *("trace.vert", "trace.frag", "weighting.frag", "false_colors.frag"),
         *("surfaces.glsl", "surfaces.comp", "surfaces.frag", "integrators/middle_ray.glsl"),
-        *("integrators/middle_surface.glsl", "passes/surface_flags.glsl"),
+        *("integrators/middle_surface.glsl", "integrators/middle_volume.glsl"),
+        *("media/bounds.glsl", "passes/surface_flags.glsl"),
         *("edges.frag", "reproject.frag", "passes/reprojection.glsl", "fade.frag", "evidence.frag"),
         *("taa.frag", "bring_models.frag", "reconstruct.frag", "predict.frag", "predictions.frag"),
         *(f"temporal/{name}.glsl" for name in TEMPORAL),

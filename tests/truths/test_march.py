@@ -190,7 +190,7 @@ def test_steps_that_are_too_short_are_refused_with_the_shortest_that_is_not(
 
 
 def test_steps_count_among_the_rounds_of_a_sample() -> None:
-    """Its path and a ray to a lamp take them in each segment, which may end at the bound."""
+    """The path and a ray to a lamp take them in each segment, which may end at the bound."""
     scene = with_smoke(smoke(RAMP, MU), [CUBE, filled(sphere([0, 0, 9], 0.5, ""), None, "lamp")])
     rounds = [
         iterations_per_sample(prepare(scene, steps_through(scene, march_step=it, bounces=3)))

@@ -1,6 +1,7 @@
 """The G-buffer: the first surface behind the middle of each pixel, to find samples again.
 
-`shaders_glsl/integrators/middle_surface.glsl` defines its texels. They need no sample, and are the
+`shaders_glsl/integrators/middle_surface.glsl` defines its texels. A medium with a grid counts as a
+surface where it has taken a tenth of the light. Texels need no sample, and are the
 same in every frame of a view.
 """
 

@@ -9,10 +9,12 @@ from glrt.gpu.structs import read_constants
 from glrt.rendering.history.gbuffer import SurfacePass, Surfaces
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
-from tests.support.builders import MATTE, glass, lamp, plane, scene_of, sphere
+from tests.support.builders import MATTE, box, glass, lamp, plane, scene_of, sphere
 from tests.support.first_hits import axes_of, hits_of_centers
+from tests.support.media import filled
 from tests.support.mixed_scene import everything
 from tests.support.moving import textures_of
+from tests.truths.test_grids import smoke, with_smoke
 
 SIZE = (24, 16)
 FLAGS = read_constants(read("passes/surface_flags.glsl"))
@@ -69,6 +71,43 @@ def test_a_surface_has_the_flags_of_its_material(
     scene = scene_of([sphere([0, 0, 0], 50.0, "one")], {"one": material}, {**EYE, "fov": 20.0})
     _, normal = surfaces_of(scene, context)
     assert (normal[..., 3] == flags).all()
+
+
+@pytest.mark.parametrize(
+    ("density", "is_thick"), [(1.0, True), (0.02, False)], ids=["thick", "thin"]
+)
+def test_smoke_is_where_a_tenth_of_the_light_is_taken(
+    context: Context, density: float, is_thick: bool
+) -> None:
+    """Smoke of even density in a large box, with a wall behind it. Thin smoke shows the wall."""
+    grid = np.full((9, 4, 4), density, np.float32)
+    around = filled(box([-9, -9, -1], [9, 9, 1], ""))
+    wall = plane([0, 0, -2], [0, 0, 1], "white")
+    rates = np.array([0.25, 0.5, 1.5])  # 0.75 in the mean
+    scene = with_smoke(smoke(grid, absorption=rates), [wall, around], {**EYE, "fov": 20.0})
+    position, normal = surfaces_of(scene, context)
+    along = position[..., :3] / np.linalg.norm(position[..., :3], axis=-1, keepdims=True)
+    depth = 2 - along[..., 2] * -np.log(0.9) / 0.75 if is_thick else np.full(SIZE[::-1], 5.0)
+    np.testing.assert_allclose(-position[..., 2], depth, rtol=1e-3)
+    assert (position[..., 3] == (2 if is_thick else 1)).all()
+    if is_thick:
+        np.testing.assert_allclose(normal[..., :3], -along, atol=1e-6)
+    assert (normal[..., 3] == (FLAGS["CLOUD"] if is_thick else 0)).all()
+
+
+def test_smoke_has_no_edges(context: Context) -> None:
+    """Not where its depth jumps, nor before a wall; surfaces around it have theirs."""
+    grid = np.zeros((9, 4, 4), np.float32)
+    grid[5:, :, :2], grid[:3, :, 2:] = 9.0, 9.0
+    around = filled(box([-0.5, -0.5, -1], [0.5, 0.5, 1], ""))
+    scene = with_smoke(
+        smoke(grid, absorption=1), [plane([0, 0, -2], [0, 0, 1], "white"), around], EYE
+    )
+    position, normal = surfaces_of(scene, context)
+    is_cloud, found = position[..., 3] == 2, normal[..., 3].astype(int)
+    assert np.ptp(position[..., 2][is_cloud]) > 0.5
+    assert (found[is_cloud] == FLAGS["CLOUD"]).all()
+    assert set(found[~is_cloud]) == {0, FLAGS["EDGE"]}
 
 
 def test_pixels_next_to_another_object_are_at_an_edge(context: Context) -> None:
