@@ -23,8 +23,8 @@ from glrt.analysis.method_choice.caustics import CHOICES
 from glrt.error.estimate import DARK
 from glrt.gpu.context import Context, open_context
 from glrt.image.sources import load
-from glrt.plan.combinations import refusal
 from glrt.plan.facts import SceneFacts
+from glrt.plan.particle_refusals import refusal
 from glrt.rendering.renderer import Renderer
 from glrt.scene.materials.kinds import Material
 from glrt.scene.scene import Scene

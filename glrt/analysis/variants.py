@@ -5,17 +5,18 @@ from dataclasses import dataclass
 from typing import Any, get_args
 
 from glrt.denoise import oidn
-from glrt.plan.combinations import refusal
 from glrt.plan.facts import SceneFacts
 from glrt.plan.features import needs_of
 from glrt.plan.methods import METHODS as TRAITS
 from glrt.plan.methods import traits_of
+from glrt.plan.particle_refusals import refusal
 from glrt.scene.grids import edges_of_voxels
 from glrt.scene.scene import Scene
 from glrt.settings import Method, Settings, settings_for
 
 METHODS: tuple[str, ...] = get_args(Method)
 LEAD = "mis"  # the method whose variants are charted
+ADAPTIVE = f"{LEAD}, adaptive"  # measured where it is asked for
 LINKED = {"particles": 0.35, "aimed": 0.2, "linked": 1.0}  # particles that are linked, too
 LONGER = 8  # times the step of a method that marches
 FEW_BOUNCES, MANY_TIMES, MOST_BOUNCES = (1, 2, 5), 8, 256
@@ -56,6 +57,11 @@ def variants_of(
             Variant(f"{known.name} = {name}", known.settings) if known else Variant(name, wanted)
         )
     return list(found.values())
+
+
+def adaptive_of(settings: Settings) -> Variant:
+    """Return the variant of LEAD whose pixels get samples in proportion to their noise."""
+    return Variant(ADAPTIVE, settings_for(settings, method=LEAD, adaptive="on"))
 
 
 def _refuses_media(facts: SceneFacts, settings: Settings, method: str) -> bool:

@@ -9,14 +9,11 @@ from collections.abc import Collection, Iterator
 from enum import StrEnum
 from itertools import combinations
 
-import numpy as np
-
 from glrt.core.errors import UsageError
 from glrt.plan.facts import SceneFacts
 from glrt.plan.methods import METHODS, reuses_points, traits_of
+from glrt.plan.particle_refusals import refusal
 from glrt.plan.plan import Layering
-from glrt.scene.shapes.kinds import SAMPLED, Shape
-from glrt.scene.shapes.plane import Plane
 from glrt.scene.summary import few
 from glrt.settings import TERMS, Settings
 
@@ -34,6 +31,7 @@ class Way(StrEnum):
     FRAGMENT = "the fragment pipeline"
     INDEPENDENT = "the independent sampler"
     NET = "--sampler net"
+    ADAPTIVE = "--adaptive on"
     CLASSIC = "a classic lighting model"
     PROBES = "a method with probes"
     REUSE = "reuse of points"
@@ -58,6 +56,7 @@ MEANINGS: dict[Way, str] = {
     Way.FRAGMENT: "`--pipeline fragment`, for OpenGL 4.1",
     Way.INDEPENDENT: "`--sampler independent`",
     Way.NET: "`--sampler net`: nets over all samples of a pixel",
+    Way.ADAPTIVE: "`--adaptive on`: samples in proportion to the noise of pixels",
     Way.CLASSIC: "`--method phong`, `blinn`, `whitted`, `whitted_tree`, `cook`",
     Way.PROBES: "`--method ddgi`, `gather`, `resampled`: indirect light from probes",
     Way.REUSE: "`--method resampled`, unless `--reuse none`: points that other samples have kept",
@@ -87,6 +86,7 @@ _WORKS: dict[Way, tuple[Way, ...]] = {
         Way.TERMS,
     ),
     Way.NET: (Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.LAYERS),
+    Way.ADAPTIVE: (Way.RESUME, Way.INDEPENDENT),
     Way.CLASSIC: (
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.FRAGMENT),
         *(Way.TERMS, Way.INDEPENDENT, Way.NET),
@@ -107,7 +107,7 @@ _WORKS: dict[Way, tuple[Way, ...]] = {
     Way.PILOT: (
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.FRAGMENT),
         *(Way.TERMS, Way.INDEPENDENT, Way.CLASSIC, Way.PROBES, Way.REUSE, Way.HYBRID),
-        *(Way.MARCH, Way.NET),
+        *(Way.MARCH, Way.NET, Way.ADAPTIVE),
     ),
     Way.DENOISE: (
         *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
@@ -118,19 +118,23 @@ _WORKS: dict[Way, tuple[Way, ...]] = {
     Way.TIME: (
         *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
         *(Way.CLASSIC, Way.PROBES, Way.REUSE, Way.PARTICLES, Way.PILOT, Way.DENOISE, Way.AUTO),
-        *(Way.TERMS, Way.HYBRID, Way.MARCH, Way.NET),
+        *(Way.TERMS, Way.HYBRID, Way.MARCH, Way.NET, Way.ADAPTIVE),
     ),
     Way.ERROR: (
         *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
         *(Way.CLASSIC, Way.PROBES, Way.REUSE, Way.PARTICLES, Way.PILOT, Way.DENOISE, Way.AUTO),
-        *(Way.TERMS, Way.TIME, Way.HYBRID, Way.MARCH, Way.NET),
+        *(Way.TERMS, Way.TIME, Way.HYBRID, Way.MARCH, Way.NET, Way.ADAPTIVE),
     ),
 }
 
 _LENGTH = "which samples a part has follows from their number in all: give --samples"
 _BLOCKS = "it goes by blocks of samples, which a net lacks: use --sampler sobol"
+_EQUAL = "it takes all pixels to have as many samples: leave out --adaptive"
+_UNPROVEN = "--adaptive is proven for paths by compute shaders alone: leave it out"
+_OF_EQUAL = (Way.PART, Way.MERGED, Way.AOV, Way.TERMS, Way.LAYERS, Way.DENOISE, Way.NET)
 _OF_BLOCKS = (Way.AOV, Way.TERMS, Way.PROBES, Way.REUSE, Way.HYBRID, Way.PARTICLES, Way.DENOISE)
 _METHODS = (Way.CLASSIC, Way.PROBES, Way.REUSE, Way.HYBRID, Way.MARCH)
+_UNPROVEN_TOO = (*_METHODS, Way.FRAGMENT, Way.PARTICLES)
 _WITH_PROBES = {Way.PROBES, Way.REUSE}, {Way.PROBES, Way.HYBRID}  # methods that have probes
 _SHARED = "the 16 samples of a block share their probes, so that they are one observation"
 _REFUSED: dict[frozenset[Way], str] = {
@@ -145,6 +149,10 @@ _REFUSED: dict[frozenset[Way], str] = {
         frozenset({Way.PARTICLES, way}): "particles are weighed by the method mis alone"
         for way in _METHODS
     },
+    **{frozenset({Way.ADAPTIVE, way}): _EQUAL for way in _OF_EQUAL},
+    **{frozenset({Way.ADAPTIVE, way}): _UNPROVEN for way in _UNPROVEN_TOO},
+    frozenset({Way.ADAPTIVE, Way.CROP}): "counts follow from pixels beyond the crop, too",
+    frozenset({Way.ADAPTIVE, Way.AUTO}): "it measures methods at equal samples: name a method",
     frozenset({Way.FRAGMENT, Way.NET}): "a fragment shader writes to too few textures for a net",
     frozenset({Way.INDEPENDENT, Way.NET}): "each is a sampler",
     frozenset({Way.MERGED, Way.RESUME}): "a plain render adds its samples in another order",
@@ -241,6 +249,7 @@ def ways_of(settings: Settings, layering: Layering = "none") -> set[Way]:
         Way.LAYERS: layering != "none" and not settings.terms,  # a plan with terms is not relit
         Way.INDEPENDENT: settings.sampler == "independent",
         Way.NET: settings.sampler == "net",
+        Way.ADAPTIVE: settings.adaptive == "on",
         Way.CLASSIC: METHODS[settings.method].model != 0,
         Way.PROBES: traits_of(settings).has_probes,
         Way.REUSE: reuses_points(settings),
@@ -250,50 +259,3 @@ def ways_of(settings: Settings, layering: Layering = "none") -> set[Way]:
         Way.DENOISE: settings.denoise != "none",
     }
     return {way for way, is_asked in found.items() if is_asked}
-
-
-def refusal(facts: SceneFacts, settings: Settings) -> str | None:
-    """Return why requested particles cannot be followed; None if they can or none are requested."""
-    return next(_refusals(facts, settings), None) if settings.caustics == "on" else None
-
-
-def _refusals(facts: SceneFacts, settings: Settings) -> Iterator[str]:
-    particles = facts.particles
-    if not METHODS[settings.method].weighs_particles:
-        yield f"particles are weighed by the method mis alone, not by {settings.method}"
-    if not (particles.lamps or particles.sun_sends or particles.sky_sends):
-        yield f"no {', '.join(SAMPLED)}, sun or sky shines: particles leave these alone"
-    if facts.has_many_lights:
-        yield f"of {facts.sampled_lamps} lamps, too many to choose among for each particle"
-    if facts.holed:
-        yield "some surfaces have holes, which particles do not follow yet"
-    if facts.scene.hidden_backs:
-        yield "some meshes hide their backs, which particles would meet from the other side"
-    if _shines_in_tinted_glass(facts) or _sun_shines_in_it(facts):
-        yield "a lamp, sun or sky is in tinted glass or one with a priority: none starts there"
-    if facts.media.names:
-        yield "the scene has media, which particles do not follow yet"
-    if facts.camera_glass.counts:
-        yield "the camera is in glass with a priority, where nothing is linked to it"
-
-
-def _dense(facts: SceneFacts) -> list[Shape]:
-    """Return the visible shapes of tinted glass or of glass with a priority."""
-    glasses = facts.glasses.items()
-    dense = {name for name, it in glasses if any(it.absorption) or it.priority is not None}
-    return [thing for thing in facts.scene.visible if thing.material in dense]
-
-
-def _shines_in_tinted_glass(facts: SceneFacts) -> bool:
-    around = _dense(facts)
-    lamps = facts.particles.lamps if around else []
-    centers = [np.array(lamp.middle, np.float64) for lamp in lamps]
-    return any(glass.holds(center) for glass in around for center in centers)
-
-
-def _sun_shines_in_it(facts: SceneFacts) -> bool:
-    """Return whether the sun or part of a sky is on the inner side of a plane of `_dense` glass."""
-    planes, sun = [it for it in _dense(facts) if isinstance(it, Plane)], facts.scene.sun
-    if facts.particles.sky_sends:
-        return bool(planes)
-    return sun is not None and any(float(np.dot(plane.normal, sun.towards)) < 0 for plane in planes)

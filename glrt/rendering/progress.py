@@ -84,4 +84,5 @@ class Progress:
     @property
     def lost_particles(self) -> Losses:
         """Losses among the particles that were linked to the camera."""
-        return self._tracer.lost_particles
+        particles = self._tracer.particles
+        return particles.losses if particles else Losses(0, 0)

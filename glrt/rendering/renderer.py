@@ -22,6 +22,7 @@ from glrt.image.resume import fitting
 from glrt.plan.combinations import check_render
 from glrt.plan.facts import SceneFacts
 from glrt.plan.plan import ONE, Layering, Weights, prepare
+from glrt.rendering.adaptive_tracer import kind_of
 from glrt.rendering.first_half import Halver, check_rest
 from glrt.rendering.layer_weights import Mixer, Reading, gathered, mixed, read_row
 from glrt.rendering.pass_film import Array
@@ -83,7 +84,7 @@ class Renderer(Progress):
             check_render(*wanted, self.pipeline == "fragment")
             with self.context.gl:
                 options = KernelOptions(self.pipeline, tier, variant)
-                self._tracer = Tracer(self.context, self.plan, options)
+                self._tracer: Tracer = kind_of(self.plan)(self.context, self.plan, options)
             refused.pop_all()
         self._mixer = Mixer(self.context.gl)
         self._halver = Halver()
@@ -157,7 +158,7 @@ class Renderer(Progress):
             return cost
         plan = self.plan.followed_by(*after, layering, wanted.start)
         with self.context.gl:
-            self._tracer, cost = self._tracer.replaced_for(plan, hysteresis)
+            self._tracer, cost = self._tracer.replaced_for(plan, hysteresis, kind_of(plan))
         (self.scene, self.settings), self.plan = after, plan
         return cost
 
@@ -242,7 +243,8 @@ class Renderer(Progress):
         """Reading of the pixel in column x, row y, (0, 0) upper left; needs a current context."""
         row, radiance, error = read_row(self.film, weights, y)
         radiance, error, _ = self._tracer.with_particles(radiance, error, weights, y)
-        finite = self.film.samples - int(row.dropped[0, x])
+        taken = np.broadcast_to(self.film.taken(slice(y, y + 1)), row.dropped.shape)
+        finite = int(taken[0, x] - row.dropped[0, x])
         return Reading(radiance[0, x], error[0, x], finite)
 
     def picture(self, weights: Weights) -> tuple[Array, Array]:
@@ -268,7 +270,7 @@ class Renderer(Progress):
     def nonfinite(self) -> int:
         """Number of samples and particles that were dropped because they were not finite."""
         with self.context.gl:
-            return self.film.dropped() + self._tracer.lost_particles.refused
+            return self.film.dropped() + self.lost_particles.refused
 
     def release(self) -> None:
         """Release all OpenGL resources; the context too, unless it was given."""

@@ -8,7 +8,7 @@ from dataclasses import replace
 import moderngl
 
 from glrt.gpu.context import Context
-from glrt.gpu.program import tile_count
+from glrt.gpu.program import Resource, tile_count
 from glrt.gpu.programs import AnyKernel
 from glrt.image.aovs import AovImages
 from glrt.image.film_state import FilmState
@@ -18,7 +18,7 @@ from glrt.rendering.aov_tracer import AovTracer, Subject
 from glrt.rendering.device_scene import DeviceScene
 from glrt.rendering.film import Extent, Film
 from glrt.rendering.kernel_switch import KernelSwitch
-from glrt.rendering.particle_tracer import Losses, ParticleTracer, particles_for
+from glrt.rendering.particle_tracer import ParticleTracer, particles_for
 from glrt.rendering.pass_film import Array
 from glrt.rendering.pipelines import KernelOptions, Tier
 from glrt.rendering.probe_supply import ProbeSupply
@@ -58,8 +58,7 @@ class Tracer:
         self._tiers: set[Tier] = set()  # tiers of the kernels that added samples
         self._tiles = tile_count(*settings.size)
         with ExitStack() as refused:
-            earlier: DeviceScene | None = before.device_scene if before else None
-            scene = DeviceScene(context, plan, options, earlier)
+            scene = DeviceScene(context, plan, options, before.device_scene if before else None)
             self.device_scene: DeviceScene = scene
             refused.callback(scene.release)
             extent = Extent.of(settings, plan.layers, scene.keeps_reservoirs)
@@ -72,7 +71,7 @@ class Tracer:
                 self.film = Film(gl, extent)
                 refused.callback(self.film.release)
             if before:
-                before.switch.schedule.drop()  # the first dispatch writes to its frame
+                before.drop_frame()  # the first dispatch writes to it
             self._raster = Raster(context, plan, scene)
             refused.callback(self._raster.release)
             self.most_samples = self._raster.at_once(self.most_samples)
@@ -86,21 +85,22 @@ class Tracer:
         if not before:
             self.restart()
 
-    def replaced_for(self, plan: Plan, hysteresis: float | None = None) -> tuple["Tracer", Cost]:
-        """A tracer for another plan, without samples yet, and the cost of the change.
+    def replaced_for(
+        self, plan: Plan, hysteresis: float | None, kind: "type[Tracer]"
+    ) -> tuple["Tracer", Cost]:
+        """A tracer of a kind for another plan, without samples yet, and the cost of the change.
 
         It takes over this tracer's film if that fits, and releases the rest. Errors are those of
         the constructor; after one, this tracer is unchanged.
         """
-        after = Tracer(self._context, plan, self._options, self, hysteresis)
+        after = kind(self._context, plan, self._options, self, hysteresis)
         is_same = after.device_scene.has_kernel_of(self.device_scene)
         keeps_shapes = is_same and after.device_scene.has_shapes_of(self.device_scene)
         if keeps_shapes and self.switch.uses_fast_kernel:
             after.bake()
-        if after.film is not self.film:
-            self.film.release()
-        if after.aovs is not self.aovs:
-            self.aovs.release()
+        for mine, its in ((self.film, after.film), (self.aovs, after.aovs)):
+            if mine is not its:
+                mine.release()
         self.probes.release(after.probes)
         self._release_own()
         after.film.restart(plan.first_sample)
@@ -114,9 +114,13 @@ class Tracer:
             return self.device_scene.tier
         return " and ".join(sorted(self._tiers))
 
+    def drop_frame(self) -> None:
+        """Discard the frame that is under way."""
+        self.switch.schedule.drop()
+
     def restart(self) -> None:
         """Discard all samples and begin again."""
-        self.switch.schedule.drop()
+        self.drop_frame()
         self.film.restart(self._plan.first_sample)
         if self.particles:
             self.particles.restart(self._plan.first_sample)
@@ -178,16 +182,11 @@ class Tracer:
         while self._lacks_particles:
             self._work_behind(HEADLESS, math.inf)
 
-    @property
-    def lost_particles(self) -> Losses:
-        """Losses among the particles that were linked to the camera."""
-        return self.particles.losses if self.particles else Losses(0, 0)
-
     def resume(
         self, samples: int, mean: Array, film_state: FilmState, particles: ParticleFilm | None
     ) -> None:
         """Continue from a picture that a kernel of the same tier has rendered."""
-        self.switch.schedule.drop()
+        self.drop_frame()
         self.film.write(samples, particles.camera if particles else mean, film_state)
         if self.particles and particles:
             self.particles.resume(samples, particles)
@@ -203,7 +202,7 @@ class Tracer:
 
     def step(self, samples: int) -> None:
         """Add `samples` to every pixel at once, or in portions if they prove too many."""
-        self.switch.schedule.drop()
+        self.drop_frame()
         target = self.film.samples + samples
         while self.film.samples < target:
             self.probes.work_on(self.film.next_sample)
@@ -229,8 +228,7 @@ class Tracer:
         start = time.perf_counter()
         self._dispatch(self.switch.kernel, part)
         self._context.finish()
-        taken = time.perf_counter() - start
-        if self._fits(part.samples) and schedule.record(part, taken):
+        if self._fits(part.samples) and schedule.record(part, time.perf_counter() - start):
             self._advance(part.samples)
 
     def release(self) -> None:
@@ -256,7 +254,7 @@ class Tracer:
 
     @property
     def _lacks_particles(self) -> bool:
-        return self.particles is not None and self.particles.is_behind(self.film.samples)
+        return bool(self.particles and self.particles.is_behind(self.film.samples))
 
     def _work_behind(self, policy: DispatchPolicy, seconds: float) -> None:
         if self.particles and self._lacks_particles:
@@ -283,10 +281,9 @@ class Tracer:
         self._tiers.add("baked" if self.switch.uses_fast_kernel else self.device_scene.tier)
 
     def _fits(self, samples: int) -> bool:
-        """Whether the frame lost no sample to the loop limit, or a smaller frame would not help.
+        """Whether the frame lost no sample to the loop limit, or only has one, counted on the film.
 
-        The rounds of rays through a tree are not known before. A frame that lost samples is
-        repeated with fewer samples at once; a frame of one sample counts its losses on the film.
+        Rounds of rays through a tree are not known before. Other frames are repeated with fewer.
         """
         if self._rounds is None or not self.device_scene.lost_any() or samples == 1:
             return True
@@ -295,6 +292,9 @@ class Tracer:
         return False
 
     def _dispatch(self, kernel: AnyKernel, part: DispatchRange) -> None:
-        own = self.probes.resources | self.film.resources
-        own |= self._raster.drawn(self.film, part.samples)
+        own = self._own(part)
         self.device_scene.dispatch(kernel, self.film, self._plan, part, self._tiles, own)
+
+    def _own(self, part: DispatchRange) -> dict[str, Resource]:
+        own = {**self.probes.resources, **self.film.resources}
+        return own | self._raster.drawn(self.film, part.samples)

@@ -122,7 +122,7 @@ class Opening:
             self._problem = error
 
     def _compile(self, scene: Scene, given: RenderSettings, driver: Driver) -> None:
-        settings = settings_for(given, crop=None, denoise="none")
+        settings = settings_for(given, crop=None, denoise="none", adaptive="off")
         layering = "none" if driver[1] == "fragment" else State(scene, settings).layering
         heard = partial(self._hear, "compiling", 0.0)
         heard()

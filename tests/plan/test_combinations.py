@@ -69,6 +69,7 @@ REFUSED = [pair for pair in pairs() if not works(*pair)]
 @pytest.mark.slow_cases(
     "light by layers---*", "a classic lighting model---*", "the independent*---*", "--sampler net-*"
 )
+@pytest.mark.slow_cases("*--adaptive on*")
 @pytest.mark.parametrize(
     ("one", "other"),
     [

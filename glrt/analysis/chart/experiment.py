@@ -13,7 +13,7 @@ from glrt.analysis.chart.measure import Bench, Look, Round, Run
 from glrt.analysis.chart.rays import Rays, rays_of
 from glrt.analysis.chart.sights import Sight, sights_of
 from glrt.analysis.reference import Budget, Reference, reference_for
-from glrt.analysis.variants import Variant, variants_of
+from glrt.analysis.variants import ADAPTIVE, Variant, adaptive_of, variants_of
 from glrt.core import files
 from glrt.core.version import VERSION
 from glrt.gpu.context import Context
@@ -78,7 +78,9 @@ class Plan:
 
     def variants(self, scene: Scene) -> list[Variant]:
         """All variants of a scene; a machine's loop limit may leave some out."""
-        return variants_of(scene, self.settings(scene))
+        settings = self.settings(scene)
+        asked = [adaptive_of(settings)] if ADAPTIVE in self.named else []
+        return [*variants_of(scene, settings), *asked]
 
 
 @dataclass(frozen=True)
@@ -148,7 +150,7 @@ def frame_of(scene: Scene, height: int) -> Settings:
     """The settings of a scene for a frame of this height, with the aspect ratio of the scene."""
     wish = scene.render
     width = max(1, round(height * wish.width / wish.height))
-    return settings_for(wish, width=width, height=height)
+    return settings_for(wish, width=width, height=height, adaptive="off")
 
 
 def _missing_rounds(

@@ -16,8 +16,8 @@ from glrt.analysis.variants import LINKED
 from glrt.error.estimate import relative_error
 from glrt.gpu.context import Context
 from glrt.image.image import Image, Pixels
-from glrt.plan.combinations import refusal
 from glrt.plan.facts import SceneFacts
+from glrt.plan.particle_refusals import refusal
 from glrt.plan.particles import makes_caustics, particles_a_sample
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
