@@ -35,7 +35,7 @@ def uneven(lab: Lab) -> Sweep:
         x=x,
         chosen=("--adaptive on: counts by the noise of neighbours", own),
         others={"equal counts": equal},
-        promise=f"at most {SLACK:g} times the error of equal counts; {GAIN:g} times up to {SMALL:g}",
+        promise=f"at most {SLACK:g} times the error of equal counts, {GAIN:g} up to {SMALL:g}",
         bound=[(GAIN if part <= SMALL else SLACK) * e for part, e in zip(x, equal, strict=True)],
     )
 
