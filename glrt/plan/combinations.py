@@ -129,7 +129,7 @@ _WORKS: dict[Way, tuple[Way, ...]] = {
 
 _LENGTH = "which samples a part has follows from their number in all: give --samples"
 _BLOCKS = "it goes by blocks of samples, which a net lacks: use --sampler sobol"
-_EQUAL = "it takes all pixels to have as many samples: leave out --adaptive"
+_EQUAL = "it needs equal counts of samples in all pixels: leave out --adaptive"
 _UNPROVEN = "--adaptive is proven for paths by compute shaders alone: leave it out"
 _OF_EQUAL = (Way.PART, Way.MERGED, Way.AOV, Way.TERMS, Way.LAYERS, Way.DENOISE, Way.NET)
 _OF_BLOCKS = (Way.AOV, Way.TERMS, Way.PROBES, Way.REUSE, Way.HYBRID, Way.PARTICLES, Way.DENOISE)
