@@ -4,6 +4,7 @@ from typing import TypedDict
 
 from glrt.phong import Phong
 from glrt.settings import (
+    Adaptive,
     Aov,
     Caustics,
     Denoise,
@@ -23,6 +24,7 @@ class FrameOptions(TypedDict, total=False):
     bounces: int
     method: Method
     effects: tuple[Effect, ...]
+    adaptive: Adaptive
     phong: Phong | None
     crop: tuple[int, int, int, int] | None
     sampler: Sampler

@@ -32,6 +32,7 @@ Method = Literal[
 Effect = Literal["shadows", "reflections", "refractions", "ambient_occlusion", "gi"]
 Sampler = Literal["sobol", "sobol64", "net", "independent"]
 Caustics = Literal["off", "on"]
+Adaptive = Literal["off", "on"]
 ToneMap = Literal["none", "aces", "agx", "neutral"]
 Term = Literal["emission", "direct", "indirect", "diffuse", "glossy", "transmission", "volume"]
 Aov = Literal["albedo", "normal", "depth", "position", "object", "bounces", Term]
@@ -79,6 +80,11 @@ class RenderSettings(Frozen):
         EFFECTS,
         description="effects of rays that method hybrid adds to a rasterised picture: "
         f"{', '.join(EFFECTS)}; all; none",
+    )
+    adaptive: Annotated[Adaptive, Editable(Cost.RECOMPILE)] = Field(
+        "off",
+        description="on: pixels get samples in proportion to their noise, so that `samples` is the "
+        "mean over pixels; the noise is that of the neighbours of a pixel in its first 64 samples",
     )
     phong: Annotated[Phong | None, Editable(Cost.RESTART)] = Field(
         None,

@@ -79,7 +79,7 @@ void main() {
     Layers layers = load_layers(texel);
     if (HAS_NET) load_net(texel);
     if (RASTERS) keep_raster(texelFetch(raster_hits, texel, 0).xy);
-    int lost = add_samples(pixel, layers, frame.origin + texel);
+    int lost = add_samples(pixel, layers, frame.origin + texel, frame.first_sample);
     if (MAY_LOSE && lost > 0) atomicAdd(lost_samples, uint(lost));
     if (HAS_NET) judge_net(pixel);
     imageStore(target_mean, texel, vec4(pixel.mean, pixel.count));

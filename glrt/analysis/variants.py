@@ -17,6 +17,7 @@ from glrt.settings import Method, Settings, settings_for
 
 METHODS: tuple[str, ...] = get_args(Method)
 LEAD = "mis"  # the method whose variants are charted
+ADAPTIVE = f"{LEAD}, adaptive"  # measured where it is asked for
 LINKED = {"particles": 0.35, "aimed": 0.2, "linked": 1.0}  # particles that are linked, too
 LONGER = 8  # times the step of a method that marches
 LIVE = "ddgi, live probes"
@@ -59,6 +60,11 @@ def variants_of(
             Variant(f"{known.name} = {name}", known.settings) if known else Variant(name, wanted)
         )
     return list(found.values())
+
+
+def adaptive_of(settings: Settings) -> Variant:
+    """Return the variant of LEAD whose pixels get samples in proportion to their noise."""
+    return Variant(ADAPTIVE, settings_for(settings, method=LEAD, adaptive="on"))
 
 
 def live_variant(scene: Scene, settings: Settings) -> Iterator[Variant]:

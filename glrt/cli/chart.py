@@ -68,7 +68,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=[],
         metavar="NAME",
         help="show this variant in the picture too, such as ddgi or 'mis, no roulette'; may be "
-        f"given {MOST_NAMED} times. A picture has {MOST_SHOWN} curves at most, the table has all",
+        f"given {MOST_NAMED} times; 'mis, adaptive' is measured only if it is named. A picture has "
+        f"{MOST_SHOWN} curves at most, the table has all",
     )
     add_moving(parser)
     add_context(parser)

@@ -198,6 +198,11 @@ def _film(arguments: argparse.Namespace) -> Film:
             f"{shown(arguments.scene)} has no [animation], so it has one frame: give --turntable N "
             "or --sweep KEY=FROM:TO:N."
         )
+    if wanted.settings.adaptive == "on":
+        raise UsageError(
+            "glrt film and --adaptive on do not go together: frames are proven with equal counts "
+            "of samples alone. Give --adaptive off."
+        )
     series = Series(
         *(wanted.scene, wanted.settings, arguments.turntable, tuple(arguments.sweeps)),
         varies_seed=arguments.vary_seed,

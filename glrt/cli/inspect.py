@@ -16,7 +16,7 @@ from glrt.plan.slow_scenes import slow_because
 from glrt.scene.scene import Scene
 from glrt.scene.summary import summary
 from glrt.scene.warnings import cautions
-from glrt.settings import Settings
+from glrt.settings import Settings, settings_for
 
 DESCRIPTION = (
     "Show what a scene holds, and what the kernel for it contains and leaves out, and why; with "
@@ -71,14 +71,15 @@ def run(arguments: argparse.Namespace) -> int:
         return 0
     if arguments.error is not None:
         check_limit("error", arguments.error)
+    equal = settings_for(settings, adaptive="off")  # what is measured has equal counts
     if arguments.simplify:
-        simplify(arguments, scene, settings)
+        simplify(arguments, scene, equal)
         return 0
     _explain(arguments.scene, scene, settings, arguments.all)
     if arguments.error is not None:
         from glrt.analysis.method_choice.advice import advise
 
-        advise(arguments, scene, settings)
+        advise(arguments, scene, equal)
     return 0
 
 

@@ -106,6 +106,7 @@ def _pair(image: Image, reference: Image, broken: Flags, alike: bool | None) -> 
         alike = known and _same_method(image, reference)
     if _has_net(image) or _has_net(reference):
         alike = alike and image.samples == reference.samples
+    alike = alike and not (np.ptp(image.counts) or np.ptp(reference.counts))
     # The variance of a picture without standard errors: the other's for its number of samples, or
     # the squared difference less the other's, whichever is more.
     ratio, square = image.samples / reference.samples, np.square(a - b)

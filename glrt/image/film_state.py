@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glrt.image import net_channels
+from glrt.image.allotment import NO_COUNTS, NO_SHARES, Counts
 from glrt.image.net_channels import NO_NET
 
 Array = NDArray[np.float32]
@@ -19,6 +20,7 @@ Channels = dict[str, NDArray[Any]]
 
 VARIANCE, PART = "film.variance", "film.part"
 DROPPED, MISSING, BEGUN = "film.dropped", "film.missing", "film.begun"
+COUNTS, SHARES = "counts", "film.shares"  # of pixels with counts of their own
 
 
 class FilmState(NamedTuple):
@@ -30,6 +32,8 @@ class FilmState(NamedTuple):
     part: Array  # (H, W, 3): mean of the finite samples of the incomplete observation
     begun: Array  # number of those samples
     net: Array = NO_NET  # (scrambles, H, W, 4): mean and finite samples, by scrambles
+    counts: Counts = NO_COUNTS  # samples taken, where pixels have counts of their own, int32
+    shares: Array = NO_SHARES  # of pixels in further samples, then
 
 
 def empty_state(height: int, width: int, scrambles: int = 0) -> FilmState:
@@ -37,12 +41,13 @@ def empty_state(height: int, width: int, scrambles: int = 0) -> FilmState:
     pixels, colors = (height, width), (height, width, 3)
     shapes = colors, pixels, pixels, colors, pixels
     net = np.zeros((scrambles, height, width, 4), np.float32) if scrambles else NO_NET
-    return FilmState(*(np.zeros(shape, np.float32) for shape in shapes))._replace(net=net)
+    variance, dropped, observations, part, begun = (np.zeros(it, np.float32) for it in shapes)
+    return FilmState(variance, dropped, observations, part, begun, net)
 
 
 def keep(film: FilmState, rows: slice, part: FilmState) -> None:
     """Copy `part` to some rows; arrays of zeros are skipped, so that rare values take no memory."""
-    for array, band in zip(film[:-1], part[:-1], strict=True):
+    for array, band in zip(film[:5], part[:5], strict=True):
         if band.any():
             array[rows] = band
     if len(film.net):
@@ -73,7 +78,8 @@ def to_channels(film: FilmState, stderr: Array, samples: int, block: int) -> Cha
     Arrays are (H, W, 3) and (H, W), in float32 and uint32.
     """
     is_net = len(film.net) > 0
-    is_whole, observations = is_net or samples % block == 0, _complete(samples, block, is_net)
+    is_whole = is_net or film.counts.size > 0 or samples % block == 0
+    observations = _complete(film.counts if film.counts.size else samples, block, is_net)
     folded = np.empty(stderr.shape, np.int32)
     for row, kept in enumerate(folded):
         near = _variance(stderr[row], film.observations[row], is_whole)
@@ -83,6 +89,8 @@ def to_channels(film: FilmState, stderr: Array, samples: int, block: int) -> Cha
     counts = {DROPPED: film.dropped, MISSING: observations - film.observations}
     channels |= {name: c.astype(np.uint32) for name, c in counts.items() if c.any()}
     channels |= net_channels.to_channels(film.net, samples)
+    if film.counts.size:
+        channels |= {COUNTS: film.counts.astype(np.uint32), SHARES: film.shares}
     return channels if is_whole else channels | {PART: film.part, BEGUN: film.begun}
 
 
@@ -99,11 +107,15 @@ def from_channels(
     nets, there are so many `scrambles`.
     """
     size, is_net = stderr.shape[:2], scrambles > 0
-    is_whole = is_net or samples % block == 0
     planes = {name: plane for name, plane in channels.items() if plane.shape == size}
+    counts, shares = NO_COUNTS, NO_SHARES
+    if COUNTS in planes and SHARES in planes:
+        counts, shares = planes[COUNTS].astype(np.int32), planes[SHARES].astype(np.float32)
+    is_whole = is_net or counts.size > 0 or samples % block == 0
     none = np.zeros(size, np.float32)
     dropped, missing = (planes.get(name, none).astype(np.float32) for name in (DROPPED, MISSING))
-    observations = np.float32(_complete(samples, block, is_net)) - missing
+    complete = _complete(counts if counts.size else samples, block, is_net)
+    observations = np.asarray(complete, np.float32) - missing
     folded, part = _stacked(planes, VARIANCE), _stacked(planes, PART)
     begun = planes.get(BEGUN)
     if is_whole:
@@ -114,12 +126,14 @@ def from_channels(
     units = (folded >> 1).view(np.int32) ^ -(folded & 1).view(np.int32)
     near = _variance(stderr, observations, is_whole).view(np.int32)
     variance = (near + units).view(np.float32)
-    return FilmState(variance, dropped, observations, part, begun, net)
+    return FilmState(variance, dropped, observations, part, begun, net, counts, shares)
 
 
-def _complete(samples: int, block: int, is_net: bool) -> int:
-    """Complete observations of a pixel without dropped samples; `block` nets are as many."""
-    return min(samples, block) if is_net else samples // block
+def _complete(samples: int | Counts, block: int, is_net: bool) -> int | Counts:
+    """Complete observations of pixels without dropped samples; `block` nets are as many."""
+    if is_net and isinstance(samples, int):
+        return min(samples, block)
+    return samples // block
 
 
 def _variance(stderr: Array, observations: Array, is_whole: bool) -> Array:

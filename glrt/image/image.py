@@ -35,11 +35,12 @@ class Image:
     """Radiance in linear sRGB, (H, W, 3) float32, row 0 on top, with its standard error.
 
     `stderr`, of the same shape, is the standard error of each mean: all NaN for fewer than two
-    observations. `samples` were taken per pixel; an image of another program has 0 samples and no
-    recipe. `film_state` is what a render needs to continue, if it is known. `particles` are two
-    films whose sum is a picture with particles. `aovs` are the requested AOVs, by name. `denoising`
-    is the filtered picture, if it was requested. `sums` are the sums of a film with layers, for a
-    denoiser; files do not hold them. Raises ValueError for arrays of another shape or type.
+    observations. `samples` were taken per pixel, or on average (`counts`); an image of another
+    program has 0 samples and no recipe. `film_state` is what a render needs to continue, if it is
+    known. `particles` are two films whose sum is a picture with particles. `aovs` are the requested
+    AOVs, by name. `denoising` is the filtered picture, if it was requested. `sums` are the sums of
+    a film with layers, for a denoiser; files do not hold them. Raises ValueError for arrays of
+    another shape or type.
     """
 
     radiance: Pixels
@@ -58,6 +59,17 @@ class Image:
                 raise ValueError(f"not an image: {pixels.dtype} of shape {pixels.shape}")
         if self.radiance.shape != self.stderr.shape:
             raise ValueError("radiance and stderr differ in shape")
+
+    @property
+    def counts(self) -> NDArray[np.int32]:
+        """Samples taken of each pixel, (H, W) int32; their mean is `samples`, up to whole blocks.
+
+        All are equal, unless the picture is adaptive. Without its film state they are unknown, and
+        `samples`.
+        """
+        if self.film_state and self.film_state.counts.size:
+            return self.film_state.counts
+        return np.full(self.radiance.shape[:2], self.samples, np.int32)
 
     @property
     def error(self) -> float | None:

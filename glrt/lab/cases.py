@@ -7,6 +7,7 @@ from glrt.lab import (
     lamps,
     marching,
     media,
+    own_counts,
     particles,
     points,
     probes,
@@ -91,6 +92,7 @@ _ALL = (
     Case("albedo", "Walls that hardly absorb", sums.albedo),
     Case("seeds", "Pixels that share random numbers", sums.seeds),
     Case("dimensions", "Points in ever more dimensions", points.dimensions),
+    Case("uneven", "Noise in a part of a picture", own_counts.uneven),
     Case("frames", "Many frames accumulated", sums.frames),
 )
 CASES = {case.name: case for case in _ALL}

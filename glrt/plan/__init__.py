@@ -14,7 +14,7 @@ Modules, each importing only what stands above it:
 - features: features compiled into a kernel
 - plan: the plan of a render: features and light layers
 - explanation: why each feature is compiled in
-- particle_refusals: why particles cannot be followed
+- particle_refusals: why particles cannot be followed in a scene
 - combinations: table of options that work together
 - omissions: light that a method leaves out
 - slow_scenes: reasons why a scene is slow, if the user can change them

@@ -70,6 +70,11 @@ class Case:
         return self.settings.caustics == "on" and sends and self.traits.weighs_particles
 
     @property
+    def adapts(self) -> bool:
+        """Whether pixels get samples in proportion to their noise."""
+        return self.settings.adaptive == "on"
+
+    @property
     def has_media(self) -> bool:
         """Whether the method follows light through media, and the scene has some."""
         return bool(self.facts.media.names) and not self.traits.model

@@ -31,6 +31,7 @@ class Way(StrEnum):
     FRAGMENT = "the fragment pipeline"
     INDEPENDENT = "the independent sampler"
     NET = "--sampler net"
+    ADAPTIVE = "--adaptive on"
     CLASSIC = "a classic lighting model"
     PROBES = "a method with probes"
     REUSE = "reuse of points"
@@ -56,6 +57,7 @@ MEANINGS: dict[Way, str] = {
     Way.FRAGMENT: "`--pipeline fragment`, for OpenGL 4.1",
     Way.INDEPENDENT: "`--sampler independent`",
     Way.NET: "`--sampler net`: nets over all samples of a pixel",
+    Way.ADAPTIVE: "`--adaptive on`: samples in proportion to the noise of pixels",
     Way.CLASSIC: "`--method phong`, `blinn`, `whitted`, `whitted_tree`, `cook`",
     Way.PROBES: "`--method ddgi`, `gather`, `resampled`: indirect light from probes",
     Way.REUSE: "`--method resampled`, unless `--reuse none`: points that other samples have kept",
@@ -86,6 +88,7 @@ _WORKS: dict[Way, tuple[Way, ...]] = {
         Way.TERMS,
     ),
     Way.NET: (Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.LAYERS),
+    Way.ADAPTIVE: (Way.RESUME, Way.INDEPENDENT),
     Way.CLASSIC: (
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.FRAGMENT),
         *(Way.TERMS, Way.INDEPENDENT, Way.NET),
@@ -106,7 +109,7 @@ _WORKS: dict[Way, tuple[Way, ...]] = {
     Way.PILOT: (
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.FRAGMENT),
         *(Way.TERMS, Way.INDEPENDENT, Way.CLASSIC, Way.PROBES, Way.REUSE, Way.HYBRID),
-        *(Way.MARCH, Way.NET),
+        *(Way.MARCH, Way.NET, Way.ADAPTIVE),
     ),
     Way.DENOISE: (
         *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
@@ -117,12 +120,12 @@ _WORKS: dict[Way, tuple[Way, ...]] = {
     Way.TIME: (
         *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
         *(Way.CLASSIC, Way.PROBES, Way.REUSE, Way.PARTICLES, Way.PILOT, Way.DENOISE, Way.AUTO),
-        *(Way.TERMS, Way.HYBRID, Way.MARCH, Way.NET),
+        *(Way.TERMS, Way.HYBRID, Way.MARCH, Way.NET, Way.ADAPTIVE),
     ),
     Way.ERROR: (
         *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
         *(Way.CLASSIC, Way.PROBES, Way.REUSE, Way.PARTICLES, Way.PILOT, Way.DENOISE, Way.AUTO),
-        *(Way.TERMS, Way.TIME, Way.HYBRID, Way.MARCH, Way.NET),
+        *(Way.TERMS, Way.TIME, Way.HYBRID, Way.MARCH, Way.NET, Way.ADAPTIVE),
     ),
     Way.SHUTTER: (
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.FRAGMENT),
@@ -132,8 +135,12 @@ _WORKS: dict[Way, tuple[Way, ...]] = {
 
 _LENGTH = "which samples a part has follows from their number in all: give --samples"
 _BLOCKS = "it goes by blocks of samples, which a net lacks: use --sampler sobol"
+_EQUAL = "it needs equal counts of samples in all pixels: leave out --adaptive"
+_UNPROVEN = "--adaptive is proven for paths by compute shaders alone: leave it out"
+_OF_EQUAL = (Way.PART, Way.MERGED, Way.AOV, Way.TERMS, Way.LAYERS, Way.DENOISE, Way.NET)
 _OF_BLOCKS = (Way.AOV, Way.TERMS, Way.PROBES, Way.REUSE, Way.HYBRID, Way.PARTICLES, Way.DENOISE)
 _METHODS = (Way.CLASSIC, Way.PROBES, Way.REUSE, Way.HYBRID, Way.MARCH)
+_UNPROVEN_TOO = (*_METHODS, Way.FRAGMENT, Way.PARTICLES)
 _WITH_PROBES = {Way.PROBES, Way.REUSE}, {Way.PROBES, Way.HYBRID}  # methods that have probes
 _SHARED = "the 16 samples of a block share their probes, so that they are one observation"
 _REFUSED: dict[frozenset[Way], str] = {
@@ -148,6 +155,10 @@ _REFUSED: dict[frozenset[Way], str] = {
         frozenset({Way.PARTICLES, way}): "particles are weighed by the method mis alone"
         for way in _METHODS
     },
+    **{frozenset({Way.ADAPTIVE, way}): _EQUAL for way in _OF_EQUAL},
+    **{frozenset({Way.ADAPTIVE, way}): _UNPROVEN for way in _UNPROVEN_TOO},
+    frozenset({Way.ADAPTIVE, Way.CROP}): "counts follow from pixels beyond the crop, too",
+    frozenset({Way.ADAPTIVE, Way.AUTO}): "it measures methods at equal samples: name a method",
     frozenset({Way.FRAGMENT, Way.NET}): "a fragment shader writes to too few textures for a net",
     frozenset({Way.INDEPENDENT, Way.NET}): "each is a sampler",
     frozenset({Way.MERGED, Way.RESUME}): "a plain render adds its samples in another order",
@@ -194,6 +205,7 @@ _REFUSED |= {
         Way.PARTICLES: "particles are followed for many samples at once, which see one time",
         Way.DENOISE: "the AOVs that guide it show one time",
         Way.AUTO: "it measures a picture of one time",
+        Way.ADAPTIVE: "pixels of other counts would see other times",
     }.items()
 }
 _UNTRIED = "nobody has tried the two together"
@@ -263,6 +275,7 @@ def ways_of(settings: Settings, layering: Layering = "none") -> set[Way]:
         Way.LAYERS: layering != "none" and not settings.terms,  # a plan with terms is not relit
         Way.INDEPENDENT: settings.sampler == "independent",
         Way.NET: settings.sampler == "net",
+        Way.ADAPTIVE: settings.adaptive == "on",
         Way.CLASSIC: METHODS[settings.method].model != 0,
         Way.PROBES: traits_of(settings).has_probes,
         Way.REUSE: reuses_points(settings),

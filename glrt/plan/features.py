@@ -260,6 +260,7 @@ class Needs:
         reasons.roulette,
     )
     has_net: bool = _row(lambda it: it.settings.scrambles > 0, most=False)  # nets that keep growing
+    adaptive: bool = _row(lambda it: it.adapts, "own counts", reasons.adaptive, most=False)
     block: int = _row(  # samples of a block: 16 or 64 of Sobol's points, 1 of random numbers
         lambda it: it.settings.block,
         "Sobol points",

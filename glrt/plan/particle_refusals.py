@@ -1,4 +1,4 @@
-"""Reasons why particles cannot be followed in a scene."""
+"""Why particles from lamps cannot be followed in a scene."""
 
 from collections.abc import Iterator
 

@@ -261,6 +261,11 @@ def sampler(case: Case) -> str:
     return f"sampler {case.settings.sampler}"
 
 
+def adaptive(case: Case) -> str:
+    """Return whether pixels get samples in proportion to their noise."""
+    return f"adaptive {case.settings.adaptive}"
+
+
 def _of(count: str, least: int) -> str:
     return f"{count}; it pays from {least} on"
 

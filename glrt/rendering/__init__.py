@@ -19,6 +19,7 @@ Modules, each importing only what stands above it:
 - raster: first surfaces by rasterisation
 - screen: film, AOVs and probes drawn for the screen
 - tracer: adds samples to a film
+- adaptive_tracer: adds samples where the noise is
 - paths: single paths, recorded and replayed
 - layer_weights: weighted sum of the layers of a film
 - progress: read-only properties of a renderer

@@ -28,7 +28,7 @@ from glrt.packing.texture_maps import images_of, textures_of
 from glrt.packing.voxel_texture import VoxelTexture, grids_of
 from glrt.plan.facts import SceneFacts
 from glrt.plan.plan import Plan
-from glrt.rendering.passes import RenderPass, Resolved
+from glrt.rendering.passes import LISTED, RADIANCE, RenderPass, Resolved
 from glrt.rendering.pipelines import (
     ENVIRONMENT,
     SHAPES,
@@ -245,7 +245,8 @@ class DeviceScene:
         return {FILE: text, **self._options.variant.texts}
 
     def _shaders(self, texts: Mapping[str, str]) -> list[Source]:
-        return sources(self._options.pipeline, self._constants, texts)
+        own = LISTED if self._constants["ADAPTIVE"] else RADIANCE
+        return sources(self._options.pipeline, self._constants, texts, own)
 
 
 def _textures(

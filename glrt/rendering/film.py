@@ -10,6 +10,7 @@ from glrt.core.errors import RenderError, UsageError
 from glrt.gpu.glsl import read
 from glrt.gpu.program import Resource
 from glrt.gpu.structs import read_constants
+from glrt.image.allotment import NO_COUNTS, NO_SHARES, Counts
 from glrt.image.film_state import FilmState, error_of_mean
 from glrt.image.net_channels import NO_NET
 from glrt.rendering.pass_film import Array, PassFilm, Size
@@ -69,6 +70,8 @@ class Film(PassFilm):
     def __init__(self, gl: moderngl.Context, extent: Extent) -> None:
         """Allocate the textures; RenderError if the driver has no room."""
         self.extent = extent
+        self.counts: Counts = NO_COUNTS  # samples of each pixel, where they differ
+        self.shares: Array = NO_SHARES  # of pixels in further samples, then
         what = f"a film of {extent.width} x {extent.height} pixels"
         super().__init__(gl, what, _outputs(extent))
 
@@ -108,7 +111,7 @@ class Film(PassFilm):
         first, end, _ = rows.indices(self.size[1])
         mean, variance = (self.read_output(name, first, end) for name in ("mean", "variance"))
         begun = self._read_begun(mean[..., 3], first, end)
-        dropped = np.float32(self.samples) - mean[..., 3]
+        dropped = self.taken(rows) - mean[..., 3]
         parts = mean[..., :3], variance[..., :3], dropped, variance[..., 3], *begun
         kept = self._read_layers(first, end), self._read_net(first, end)
         copies = (part.copy() for part in (*parts, *kept))
@@ -117,9 +120,14 @@ class Film(PassFilm):
     def dropped(self) -> int:
         """Number of samples that were not finite, over all pixels."""
         self._check_exposed()
-        ends = (rows.indices(self.size[1])[:2] for rows in self.bands())
-        counts = (self.read_output("mean", *rows)[..., 3] for rows in ends)
-        return sum(int((self.samples - count).sum(dtype=np.float64)) for count in counts)
+        ends = ((rows, rows.indices(self.size[1])[:2]) for rows in self.bands())
+        lost = (self.taken(rows) - self.read_output("mean", *end)[..., 3] for rows, end in ends)
+        return sum(int(band.sum(dtype=np.float64)) for band in lost)
+
+    def taken(self, rows: slice) -> Array:
+        """Samples of the pixels of some rows, (rows, width) float32, or (1, 1) if all are equal."""
+        equal = np.full((1, 1), self.samples, np.float32)
+        return self.counts[rows].astype(np.float32) if self.counts.size else equal
 
     def bands(self) -> Iterator[slice]:
         """Slices of rows that cover the film; each takes little memory."""
@@ -133,7 +141,8 @@ class Film(PassFilm):
         """
         if self.extent.layers:
             raise UsageError("layers of light are kept here, which a picture does not hold")
-        finite = np.float32(samples) - film_state.dropped
+        self.samples, self.counts, self.shares = samples, film_state.counts, film_state.shares
+        finite = self.taken(slice(None)) - film_state.dropped
         rows = {
             "mean": np.dstack([mean, finite]),
             "variance": np.dstack([film_state.variance, film_state.observations]),
@@ -143,7 +152,11 @@ class Film(PassFilm):
             rows["block"] = _tiled(film_state.net)
         for name in self.sources.keys() & rows:
             self.sources[name].write(np.ascontiguousarray(rows[name], np.float32))
-        self.samples = samples
+
+    def restart(self, first_sample: int = 0) -> None:
+        """Discard all samples; the next dispatch ignores what the textures hold."""
+        super().restart(first_sample)
+        self.counts, self.shares = NO_COUNTS, NO_SHARES
 
     def _check_exposed(self) -> None:
         if not self.samples:
@@ -151,7 +164,8 @@ class Film(PassFilm):
 
     def _read_begun(self, finite: Array, first: int, end: int) -> tuple[Array, Array]:
         """Mean of the incomplete observation, and its share of the `finite` samples per pixel."""
-        if self.extent.scrambles or self.samples % self.extent.block == 0:
+        is_whole = self.counts.size or self.samples % self.extent.block == 0
+        if self.extent.scrambles or is_whole:
             return np.zeros((*finite.shape, 3), np.float32), np.zeros_like(finite)
         begun = self.read_output("block", first, end)
         return begun[..., :3], np.asarray(begun[..., 3] / np.maximum(finite, 1), np.float32)

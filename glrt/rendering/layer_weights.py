@@ -46,6 +46,8 @@ def mixed(film: Film, weights: Weights) -> tuple[Array, Array, FilmState | None]
         radiance[rows], error[rows] = _mixed(exposure, weights)
         if film_state:
             keep(film_state, rows, exposure.state(film.samples))
+    if film_state:
+        film_state = film_state._replace(counts=film.counts, shares=film.shares)
     return radiance, error, film_state
 
 

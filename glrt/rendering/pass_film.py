@@ -54,6 +54,14 @@ class PassFilm:
         """Discard all samples; the next dispatch ignores what the textures hold."""
         self.samples, self.first_sample = 0, first_sample
 
+    def copy_to_targets(self) -> None:
+        """Copy the last complete frame to the textures of the next; needs a current context."""
+        for source, target in zip(*(pair.values() for pair in self._pairs), strict=True):
+            ends = [self._gl.framebuffer([texture]) for texture in (target, source)]
+            self._gl.copy_framebuffer(*ends)
+            for end in ends:
+                end.release()
+
     def advance(self, samples: int) -> None:
         """Complete a frame of `samples` per pixel: the target textures become the sources."""
         self._pairs.reverse()

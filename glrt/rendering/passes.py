@@ -35,6 +35,7 @@ RADIANCE = RenderPass(
     {"compute": ("trace.comp",), "fragment": ("trace.vert", "trace.frag")},
     ("mean", "variance", "block", "layers", "reservoirs"),  # the last three where a film keeps them
 )
+LISTED = RenderPass({"compute": ("adaptive.comp",)}, ("mean", "variance", "block"))
 BOUNCES = RADIANCE._replace(
     outputs=("mean", "variance", "block"),
     constants={"COUNT_BOUNCES": True, "LAYERS": 0, **NO_REUSE},

@@ -1,5 +1,7 @@
 """Read-only properties of a render: samples, pixels, kernels, seconds."""
 
+import numpy as np
+
 from glrt.gpu.context import Context
 from glrt.gpu.glsl import Source
 from glrt.plan.plan import Weights
@@ -110,7 +112,8 @@ class Progress:
         """Reading of the pixel in column x, row y, (0, 0) upper left; needs a current context."""
         row, radiance, error = read_row(self.film, weights, y)
         radiance, error, _ = self._tracer.with_particles(radiance, error, weights, y)
-        finite = self.film.samples - int(row.dropped[0, x])
+        taken = np.broadcast_to(self.film.taken(slice(y, y + 1)), row.dropped.shape)
+        finite = int(taken[0, x] - row.dropped[0, x])
         return Reading(radiance[0, x], error[0, x], finite)
 
     def picture(self, weights: Weights) -> tuple[Array, Array]:

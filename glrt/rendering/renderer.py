@@ -20,6 +20,7 @@ from glrt.image.partition import Partition, one_part, wanted_range
 from glrt.image.recipe import Recipe, lasting, traced
 from glrt.image.resume import fitting
 from glrt.plan.plan import ONE, Layering, Weights
+from glrt.rendering.adaptive_tracer import kind_of
 from glrt.rendering.first_half import Halver, check_rest
 from glrt.rendering.layer_weights import Mixer, gathered, mixed
 from glrt.rendering.pipelines import PLAIN, KernelOptions, Tier, Variant, resolve
@@ -85,7 +86,7 @@ class Renderer(Progress):
             with self.context.gl:
                 kept: Tier = "generic" if self._shutter.is_open else tier  # between samples
                 options = KernelOptions(self.pipeline, kept, variant)
-                self._tracer = Tracer(self.context, self.plan, options)
+                self._tracer: Tracer = kind_of(self.plan)(self.context, self.plan, options)
             refused.pop_all()
         self._mixer = Mixer(self.context.gl)
         self._halver = Halver()
@@ -150,7 +151,7 @@ class Renderer(Progress):
         else:
             plan = shutter.plan(layering, wanted.start, self.plan)
             with self.context.gl:
-                self._tracer, cost = self._tracer.replaced_for(plan, hysteresis)
+                self._tracer, cost = self._tracer.replaced_for(plan, hysteresis, kind=kind_of(plan))
         (self.scene, self.settings), self._shutter, self.plan = after, shutter, plan
         return cost
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 import moderngl
 
 from glrt.gpu.context import Context
-from glrt.gpu.program import tile_count
+from glrt.gpu.program import Resource, tile_count
 from glrt.gpu.programs import AnyKernel
 from glrt.image.aovs import AovImages
 from glrt.image.film_state import FilmState
@@ -52,27 +52,24 @@ class Tracer:
         beyond the driver, and RenderError. After an error nothing is held, and `before` has lost at
         most its incomplete frame.
         """
-        self._context, self._plan, self._options, gl = context, plan, options, context.gl
+        self._context, self._plan, self._options = context, plan, options
         self._rounds, self.most_samples = dispatch_limits(context, plan)
-        settings = plan.settings
         self._tiers: set[Tier] = set()  # tiers of the kernels that added samples
-        self._tiles = tile_count(*settings.size)
+        self._tiles = tile_count(*plan.settings.size)
         with ExitStack() as refused:
-            earlier: DeviceScene | None = before.device_scene if before else None
-            scene = DeviceScene(context, plan, options, earlier)
+            scene = DeviceScene(context, plan, options, before.device_scene if before else None)
             self.device_scene: DeviceScene = scene
             refused.callback(scene.release)
-            extent = Extent.of(settings, plan.layers, scene.keeps_reservoirs)
+            extent = Extent.of(plan.settings, plan.layers, scene.keeps_reservoirs)
             probes = before.probes if before and scene.has_kernel_of(before.device_scene) else None
             self.probes: ProbeSupply = ProbeSupply(context, plan, scene, probes, hysteresis)
             refused.callback(self.probes.release, probes)
-            if before and before.film.extent == extent:
-                self.film: Film = before.film
-            else:
-                self.film = Film(gl, extent)
+            kept = before.film if before and before.film.extent == extent else None
+            self.film: Film = kept or Film(context.gl, extent)
+            if not kept:
                 refused.callback(self.film.release)
             if before:
-                before.switch.schedule.drop()  # the first dispatch writes to its frame
+                before.drop_frame()  # the first dispatch writes to it
             self._raster = Raster(context, plan, scene)
             refused.callback(self._raster.release)
             self.most_samples = self._raster.at_once(self.most_samples)
@@ -81,28 +78,31 @@ class Tracer:
             self.particles: ParticleTracer | None = particles_for(context, plan, scene)
             if self.particles:
                 refused.callback(self.particles.release)
-            self.aovs: AovTracer = self._aovs_for(settings, before)
+            self.aovs: AovTracer = self._aovs_for(plan.settings, before)
             refused.pop_all()
         if not before:
             self.restart()
 
     def replaced_for(
-        self, plan: Plan, hysteresis: float | None = None, keeps_samples: bool = False
+        self,
+        plan: Plan,
+        hysteresis: float | None = None,
+        keeps_samples: bool = False,
+        kind: "type[Tracer] | None" = None,
     ) -> tuple["Tracer", Cost]:
-        """A tracer for another plan, without samples unless it keeps them, and the change's cost.
+        """A tracer for another plan, of another `kind` if given, and the cost of the change.
 
-        It takes over this tracer's film if that fits, and releases the rest. Errors are those of
-        the constructor; after one, this tracer is unchanged.
+        It has no samples unless it keeps them. It takes over this tracer's film if that fits, and
+        releases the rest. Errors are those of the constructor; after one, this tracer is unchanged.
         """
-        after = Tracer(self._context, plan, self._options, self, hysteresis)
+        after = (kind or type(self))(self._context, plan, self._options, self, hysteresis)
         is_same = after.device_scene.has_kernel_of(self.device_scene)
         keeps_shapes = is_same and after.device_scene.has_shapes_of(self.device_scene)
         if keeps_shapes and self.switch.uses_fast_kernel:
             after.bake()
-        if after.film is not self.film:
-            self.film.release()
-        if after.aovs is not self.aovs:
-            self.aovs.release()
+        for mine, its in ((self.film, after.film), (self.aovs, after.aovs)):
+            if mine is not its:
+                mine.release()
         self.probes.release(after.probes)
         self._release_own()
         if not keeps_samples:
@@ -117,9 +117,13 @@ class Tracer:
             return self.device_scene.tier
         return " and ".join(sorted(self._tiers))
 
+    def drop_frame(self) -> None:
+        """Discard the frame that is under way."""
+        self.switch.schedule.drop()
+
     def restart(self) -> None:
         """Discard all samples and begin again."""
-        self.switch.schedule.drop()
+        self.drop_frame()
         self.film.restart(self._plan.first_sample)
         if self.particles:
             self.particles.restart(self._plan.first_sample)
@@ -185,7 +189,7 @@ class Tracer:
         self, samples: int, mean: Array, film_state: FilmState, particles: ParticleFilm | None
     ) -> None:
         """Continue from a picture that a kernel of the same tier has rendered."""
-        self.switch.schedule.drop()
+        self.drop_frame()
         self.film.write(samples, particles.camera if particles else mean, film_state)
         if self.particles and particles:
             self.particles.resume(samples, particles)
@@ -201,7 +205,7 @@ class Tracer:
 
     def step(self, samples: int) -> None:
         """Add `samples` to every pixel at once, or in portions if they prove too many."""
-        self.switch.schedule.drop()
+        self.drop_frame()
         target = self.film.samples + samples
         while self.film.samples < target:
             self.probes.work_on(self.film.next_sample)
@@ -218,17 +222,14 @@ class Tracer:
         elif self.probes.lack(next_sample):
             self.probes.work_on(next_sample, planned)
         else:
-            remaining = self.probes.together(next_sample, remaining)
-            self._work_on_picture(remaining, planned, policy)
+            self._work_on_picture(self.probes.together(next_sample, remaining), planned, policy)
 
     def _work_on_picture(self, remaining: int, planned: float, policy: DispatchPolicy) -> None:
-        schedule = self.switch.schedule
+        schedule, start = self.switch.schedule, time.perf_counter()
         part = schedule.next_dispatch(remaining, planned, self.film.samples, policy)
-        start = time.perf_counter()
         self._dispatch(self.switch.kernel, part)
         self._context.finish()
-        taken = time.perf_counter() - start
-        if self._fits(part.samples) and schedule.record(part, taken):
+        if self._fits(part.samples) and schedule.record(part, time.perf_counter() - start):
             self._advance(part.samples)
 
     def release(self) -> None:
@@ -254,7 +255,7 @@ class Tracer:
 
     @property
     def _lacks_particles(self) -> bool:
-        return self.particles is not None and self.particles.is_behind(self.film.samples)
+        return bool(self.particles and self.particles.is_behind(self.film.samples))
 
     def _work_behind(self, policy: DispatchPolicy, seconds: float) -> None:
         if self.particles and self._lacks_particles:
@@ -281,18 +282,18 @@ class Tracer:
         self._tiers.add("baked" if self.switch.uses_fast_kernel else self.device_scene.tier)
 
     def _fits(self, samples: int) -> bool:
-        """Whether the frame lost no sample to the loop limit, or a smaller frame would not help.
-
-        The rounds of rays through a tree are not known before. A frame that lost samples is
-        repeated with fewer samples at once; a frame of one sample counts its losses on the film.
-        """
-        if self._rounds is None or not self.device_scene.lost_any() or samples == 1:
-            return True
-        self.most_samples = samples // 2
-        self.switch.schedule.limit(self.most_samples)
-        return False
+        """Whether the frame lost no sample to the loop limit, or only has one, counted on the film."""
+        # Rounds of rays through a tree are not known before. Other frames are repeated with fewer.
+        fits = self._rounds is None or not self.device_scene.lost_any() or samples == 1
+        if not fits:
+            self.most_samples = samples // 2
+            self.switch.schedule.limit(self.most_samples)
+        return fits
 
     def _dispatch(self, kernel: AnyKernel, part: DispatchRange) -> None:
-        own = self.probes.resources | self.film.resources
-        own |= self._raster.drawn(self.film, part.samples)
+        own = self._own(part)
         self.device_scene.dispatch(kernel, self.film, self._plan, part, self._tiles, own)
+
+    def _own(self, part: DispatchRange) -> dict[str, Resource]:
+        own = {**self.probes.resources, **self.film.resources}
+        return own | self._raster.drawn(self.film, part.samples)

@@ -176,7 +176,8 @@ class Files:
 
     def _take(self, scene: Scene, settings: RenderSettings) -> None:
         self.session.problem = ""
-        self.session.open(State(scene, settings_for(settings, crop=None, denoise="none")))
+        plain = settings_for(settings, crop=None, denoise="none", adaptive="off")
+        self.session.open(State(scene, plain))
         self.show(scene)
 
     def follow(self, now: float) -> None:

@@ -131,7 +131,7 @@ class Opening:
     def _compile(
         self, scene: Scene, given: RenderSettings, tree: SceneTree | None, driver: Driver
     ) -> None:
-        settings = settings_for(given, crop=None, denoise="none")
+        settings = settings_for(given, crop=None, denoise="none", adaptive="off")
         layering = "none" if driver.pipeline == "fragment" else State(scene, settings).layering
         heard = partial(self._hear, "compiling", 0.0)
         heard()

@@ -21,10 +21,11 @@ vec3 value_of(Path path) {
 }
 
 // One loop over the segments of all paths: a lane whose path has ended starts its next sample at
-// once and does not wait for its neighbours. `place`: pixel in the full frame. Returns how many
-// samples are lost because the driver ended a loop early: this loop, or one of a ray.
-int add_samples(inout Pixel pixel, inout Layers layers, ivec2 place) {
-    int index = frame.first_sample;
+// once and does not wait for its neighbours. `place`: pixel in the full frame; `first`: number of its
+// next sample. Returns how many samples are lost because the driver ended a loop early: this loop, or
+// one of a ray.
+int add_samples(inout Pixel pixel, inout Layers layers, ivec2 place, int first) {
+    int index = first;
     int end = index + frame.sample_count;
     Sampler rng = sampler_at(place, index, frame.seed);
     Path path = camera_path(place, rng);
@@ -50,5 +51,5 @@ int add_samples(inout Pixel pixel, inout Layers layers, ivec2 place) {
 
 int add_samples(inout Pixel pixel, ivec2 place) {
     Layers none = empty_layers();
-    return add_samples(pixel, none, place);
+    return add_samples(pixel, none, place, frame.first_sample);
 }

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from itertools import permutations
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -39,7 +40,7 @@ def parts(count: int, numbers: Sequence[int] = (), of: Render = RENDER) -> list[
 
 def assert_near(found: Image, truth: Image) -> None:
     """Values agree to the rounding of the parts' means to float32, and counts exactly."""
-    pairs = [(found.radiance, truth.radiance), (found.stderr, truth.stderr)]
+    pairs: list[tuple[Any, Any]] = [(found.radiance, truth.radiance), (found.stderr, truth.stderr)]
     pairs += [*zip(state_of(found), state_of(truth), strict=True)]
     assert [*found.aovs] == [*truth.aovs]
     for name, aov in truth.aovs.items():

@@ -158,7 +158,7 @@ def test_title_and_wished_samples_of_a_scene_may_change(begun: Image) -> None:
         *(("crop", (0, 0, 5, 5)), ("sampler", "independent"), ("roulette", False)),
         *(("caustics", "on"), ("particles", 1.0), ("aimed", 0.1), ("linked", 0.5), ("probes", 4)),
         *(("reuse", "both"), ("unbiased", False), ("phong", Phong(ambient=0.1))),
-        *(("effects", ("shadows",)), ("march_step", 0.5)),
+        *(("effects", ("shadows",)), ("march_step", 0.5), ("adaptive", "on")),
         *(("version", "9.9"), ("renderer", "another"), ("tier", "generic")),
         ("pipeline", "fragment"),
     ],
@@ -173,7 +173,7 @@ def test_every_setting_is_free_or_refused(begun: Image) -> None:
     free = {"samples", "exposure", "tonemap", "aov", "denoise"}
     known = {"width", "height", "bounces", "method", "seed", "crop", "sampler", "roulette"}
     known |= {"caustics", "particles", "aimed", "linked", "probes", "reuse", "unbiased"}
-    known |= {"phong", "effects", "march_step"}
+    known |= {"phong", "effects", "march_step", "adaptive"}
     assert set(Settings.model_fields) == free | known
 
 

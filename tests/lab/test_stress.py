@@ -63,7 +63,7 @@ SWEEP = Sweep(
 
 @pytest.mark.slow_cases("leave", "stretch", "caustic", "sparks", "still", "albedo")
 @pytest.mark.slow_cases(
-    "depth", "turn", "spike", "layer", "colors", "skim", "inside", "march", "voxel"
+    "depth", "turn", "spike", "layer", "colors", "skim", "inside", "march", "voxel", "uneven"
 )
 @pytest.mark.slow_cases(*SLOW)
 @pytest.mark.parametrize("name", CASES)

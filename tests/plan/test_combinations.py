@@ -73,6 +73,7 @@ REFUSED = [pair for pair in pairs() if not works(*pair)]
     "the independent*---*",
     "--sampler net-*",
 )
+@pytest.mark.slow_cases("*--adaptive on*")
 @pytest.mark.parametrize(
     ("one", "other"),
     [

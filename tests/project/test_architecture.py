@@ -36,6 +36,7 @@ ENTRIES = {
 } | {"weighting.frag", "false_colors.frag", "aov_view.frag", "first_surface.frag", "magnify.frag"}
 ENTRIES |= {"surfaces.comp", "surfaces.frag", "edges.frag", "reproject.frag", "fade.frag"} | {
     *("evidence.frag", "taa.frag", "ataa_mask.frag", "ataa.frag", "gather.comp", "more.comp"),
+    "adaptive.comp",
     *(f"probe_{name}.comp" for name in ("rays", "light", "distances", "place")),
     *("probe_balls.vert", "probe_balls.frag"),
     *("silhouette.vert", "silhouette.frag", "silhouette_line.frag", "raster.vert", "raster.frag"),

@@ -52,11 +52,12 @@ def osmesa() -> Iterator[Context]:
 
 
 def picture(name: str, context: Context, **ways: Any) -> Image:
-    """A render of two observations and a sample."""
+    """A render of two observations and a sample; beyond the floor where pixels have own counts."""
     scene, settings = RENDERS[name]
+    more = 64 if "adaptive" in settings else 0
     renderer = Renderer(scene, context=context, **{**SIZE, **settings, **ways})
     try:
-        image = renderer.render(2 * renderer.settings.block + 1).image()
+        image = renderer.render(2 * renderer.settings.block + 1 + more).image()
         assert renderer.nonfinite() == 0
     finally:
         renderer.release()
@@ -91,7 +92,7 @@ def test_the_renders_use_every_feature() -> None:
     assert found["lamps"] == set(SAMPLED)
 
 
-@pytest.mark.slow_cases("by constants", "by nets")
+@pytest.mark.slow_cases("by constants", "by nets", "by own counts")
 @pytest.mark.parametrize("name", RENDERS)
 def test_the_kernel_of_a_profile(software: Context, usual: Image, name: str) -> None:
     """Other tests render by these: features that a scene leaves out change no bit."""
@@ -105,7 +106,7 @@ WAYS = [  # a crowd has too many shapes to be baked; some lack a fragment shader
     *(
         (name, "pipeline", "fragment")
         for name in RENDERS
-        if name not in ("caustics", "shared places", "by nets")
+        if name not in ("caustics", "shared places", "by nets", "by own counts")
     ),
 ]
 
@@ -114,6 +115,7 @@ WAYS = [  # a crowd has too many shapes to be baked; some lack a fragment shader
     *("by constants-tier-baked", "by constants-pipeline-fragment"),
     *("drawn-tier-baked", "drawn-pipeline-fragment"),
     *("hazy by steps-tier-baked", "hazy by steps-pipeline-fragment", "by nets-tier-baked"),
+    "by own counts-tier-baked",
 )
 @pytest.mark.parametrize(("name", "key", "way"), WAYS)
 def test_tiers_and_pipelines(

@@ -62,6 +62,7 @@ CHANGES: dict[str, Any] = {
     "bounces": 3,
     "method": "nee",
     "effects": ("shadows",),
+    "adaptive": "on",
     "phong": Phong(diffuse=0.5),
     "sampler": "sobol",
     "crop": (2, 3, 5, 7),
@@ -82,7 +83,7 @@ CHANGES: dict[str, Any] = {
 }
 
 
-@pytest.mark.slow_cases("caustics")
+@pytest.mark.slow_cases("caustics", "adaptive")
 @pytest.mark.parametrize("setting", CHANGES)
 def test_change_of_a_setting_costs_what_it_declares(context: Context, setting: str) -> None:
     order = list(Cost)

@@ -91,6 +91,7 @@ def test_what_a_file_leaves_out_has_the_documented_defaults() -> None:
         "bounces": 10,
         "method": "mis",
         "effects": EFFECTS,
+        "adaptive": "off",
         "phong": None,
     }
     assert (scene.camera.up, scene.camera.fov, scene.camera.defocus_angle) == ((0, 1, 0), 45, 0)

@@ -1,4 +1,4 @@
-"""Eleven renders that together use every feature of the kernel, and the settings that ask for them.
+"""Renders that together use every feature of the kernel, and the settings that ask for them.
 
 tests/rendering/test_equal_bits.py renders each in every way, and fails if a feature is in none.
 """
@@ -173,5 +173,6 @@ RENDERS: dict[str, tuple[Scene, dict[str, Any]]] = {
     "hazy": (hazy(), {"method": "mis"}),
     "hazy by steps": (hazy(), {"method": "march", "march_step": 0.1}),
     "drawn": (mapped(), {"method": "hybrid", "effects": TRACED}),
+    "by own counts": (still_life(), {"method": "mis", "adaptive": "on"}),
     "by nets": (still_life(), {"method": "mis", "sampler": "net"}),
 }

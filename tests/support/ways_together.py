@@ -61,6 +61,16 @@ def resume_a_part() -> None:
     assert same(rendered("--resume", "begun.exr"), whole)
 
 
+def resume_adaptive() -> None:
+    """Beyond the floor, where counts differ."""
+    options = OPTIONS[Way.ADAPTIVE]
+    plain([*options, "--samples", "100"]).save("begun.exr")
+    whole = plain([*options, "--samples", "160"])
+    found = rendered("--resume", "begun.exr", "--samples", "160")
+    assert same(found, whole)
+    assert np.ptp(found.counts)
+
+
 def resume_reuse() -> None:
     """Whole blocks of 16 samples go on; others lack the points that samples share."""
     options = OPTIONS[Way.REUSE]
@@ -125,6 +135,7 @@ def merged_and_blurred() -> None:
 SPECIAL: dict[frozenset[Way], Callable[[], None]] = {
     frozenset({Way.RESUME, Way.PART}): resume_a_part,
     frozenset({Way.RESUME, Way.REUSE}): resume_reuse,
+    frozenset({Way.RESUME, Way.ADAPTIVE}): resume_adaptive,
     frozenset({Way.RESUME, Way.DENOISE}): resume_denoised,
     frozenset({Way.DENOISE, Way.TIME}): denoised_in_time,
     frozenset({Way.MERGED, Way.PART}): part_of_a_merged_picture,

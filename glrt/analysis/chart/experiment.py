@@ -13,7 +13,14 @@ from glrt.analysis.chart.measure import Bench, Look, Round, Run
 from glrt.analysis.chart.rays import Rays, rays_of
 from glrt.analysis.chart.sights import Sight, sights_of
 from glrt.analysis.reference import Budget, Reference, reference_for
-from glrt.analysis.variants import LIVE, Variant, live_variant, variants_of
+from glrt.analysis.variants import (
+    ADAPTIVE,
+    LIVE,
+    Variant,
+    adaptive_of,
+    live_variant,
+    variants_of,
+)
 from glrt.core import files
 from glrt.core.version import VERSION
 from glrt.gpu.context import Context
@@ -79,11 +86,13 @@ class Plan:
     def variants(self, scene: Scene) -> list[Variant]:
         """All variants of a scene; a machine's loop limit may leave some out.
 
-        Live probes, which need many updates before each picture, are among them if they are named.
+        Adaptive sampling is among them if it is named, and so are live probes, which need many
+        updates before each picture.
         """
         settings = self.settings(scene)
+        asked = [adaptive_of(settings)] if ADAPTIVE in self.named else []
         live = live_variant(scene, settings) if LIVE in self.named else ()
-        return [*variants_of(scene, settings), *live]
+        return [*variants_of(scene, settings), *asked, *live]
 
 
 @dataclass(frozen=True)
@@ -158,7 +167,7 @@ def frame_of(scene: Scene, height: int) -> Settings:
     """The settings of a scene for a frame of this height, with the aspect ratio of the scene."""
     wish = scene.render
     width = max(1, round(height * wish.width / wish.height))
-    return settings_for(wish, width=width, height=height)
+    return settings_for(wish, width=width, height=height, adaptive="off")
 
 
 def _missing_rounds(

@@ -52,7 +52,8 @@ def report(arguments: argparse.Namespace, done: Done) -> None:
         more = f" ({new} of them new)" if begun else ""
         print(
             f"Wrote {file_names(arguments.outputs)}: {width} x {height}, "
-            f"{counted(done.image.samples, 'sample')}{more} in {done.seconds['render']:.1f} s "
+            f"{counted(done.image.samples, 'sample')}{_spread(done.image)}{more} in "
+            f"{done.seconds['render']:.1f} s "
             f"({done.rate / 1e6:.2f} million samples/s){_errors(done.image)}.",
             file=sys.stderr,
         )
@@ -72,6 +73,12 @@ def report(arguments: argparse.Namespace, done: Done) -> None:
         print(f"glrt: caution: {text}", file=sys.stderr)
     if not arguments.quiet and (missing := omissions(renderer.plan.facts, renderer.settings)):
         print(left_out(renderer.settings, missing), file=sys.stderr)
+
+
+def _spread(image: Image) -> str:
+    """Return the range of the counts of pixels, if they differ."""
+    low, high = int(image.counts.min()), int(image.counts.max())
+    return f" on average ({low} to {high})" if low < high else ""
 
 
 def _errors(image: Image) -> str:

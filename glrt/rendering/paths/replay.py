@@ -136,6 +136,11 @@ def arrived(records: Sequence[Array]) -> PixelParticles:
 def check_followed(plan: Plan) -> None:
     """Raise UsageError for a method or a scene whose paths are not recorded."""
     settings = plan.settings
+    if settings.adaptive == "on":
+        raise UsageError(
+            "Paths are not recorded with --adaptive on, where pixels have counts of their own: "
+            "give --adaptive off, by which the first samples are the same."
+        )
     if METHODS[settings.method].model:
         raise UsageError(
             f"paths are not shown of the method {settings.method}: it is a lighting model, which "

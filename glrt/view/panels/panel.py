@@ -37,7 +37,7 @@ from glrt.view.widgets.fields import button, edited, edited_fields, tip
 from glrt.view.widgets.finder import FINDER
 from glrt.view.widgets.steady_widget import ANCHOR
 
-SETTINGS = {c.name: c for c in controls_of(Settings, leave_out=("crop", "denoise"))}
+SETTINGS = {c.name: c for c in controls_of(Settings, leave_out=("crop", "denoise", "adaptive"))}
 PATHS = ("method", "sampler", "roulette", "seed", "caustics")
 PROBES = ("probes",)  # shown if the method has probes
 PER_UPDATE = next(c for c in controls_of(Probes) if c.name == "per_update")  # with `probes`

@@ -47,7 +47,7 @@ class Session(ShownPicture):
         """Compile nothing yet; the first frames announce that a kernel will be compiled."""
         self.rest = rest
         self.pipeline = resolve(pipeline, context)
-        super().__init__(State(scene, settings_for(settings, crop=None)))
+        super().__init__(State(scene, settings_for(settings, crop=None, adaptive="off")))
         self.renderer: Renderer | None = None
         self.paused = False
         self.waits = False  # whether it gets no samples, so that another picture catches up
