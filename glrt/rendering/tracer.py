@@ -282,7 +282,7 @@ class Tracer:
         self._tiers.add("baked" if self.switch.uses_fast_kernel else self.device_scene.tier)
 
     def _fits(self, samples: int) -> bool:
-        """Whether the frame lost no sample to the loop limit, or only has one, counted on the film."""
+        """Whether the frame lost no sample to the loop limit, or has one, counted on the film."""
         # Rounds of rays through a tree are not known before. Other frames are repeated with fewer.
         fits = self._rounds is None or not self.device_scene.lost_any() or samples == 1
         if not fits:
