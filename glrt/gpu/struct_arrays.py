@@ -65,7 +65,7 @@ def scene_arrays(
 # Never in a uniform block: OpenGL 4.1 grants a kernel 12, which the other structs take.
 TEXTURED = (
     *("Mesh", "Corner", "Triangle", "Instance", "Tint"),
-    *("Grain", "Conductor", "Glass", "Gloss", "Albedo", "Emitter", "Aim", "Target", "Sides"),
+    *("Conductor", "Glass", "Gloss", "Albedo", "Emitter", "Aim", "Target", "Sides"),
     *("Map", "Maps", "Axes", "Uv", "Tangent", "Medium", "Boundary"),
 )
 COUNTED = ("Node", "Slot", "Light")  # by the struct Frame, in addition to the numbered structs

@@ -56,7 +56,7 @@ def grazing(lab: Lab) -> Sweep:
 _BRUSHED = """
     mat3 up = frame_around(vec3(0.0, 0.0, 1.0));
     Vertex even = vertex_of(up, wo, material_at(0), true);
-    Vertex vertex = vertex_along(even, up[0], grain_at(0).stretch);
+    Vertex vertex = vertex_along(even, up[0], material_at(0).ior);
     Scattering next = sample_principled(vertex, u.x, u.yz);
     float kept = next.weight.x;"""
 _ONE_FACET = f"""{_BRUSHED}

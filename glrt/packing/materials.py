@@ -37,6 +37,7 @@ def pack_metal(row: Any, material: Metal) -> None:
     """Fill a row with reflectance, which is 1 for a conductor, and the alpha of GGX."""
     color = (1.0, 1.0, 1.0) if material.color is None else material.color
     row["kind"], row["color"], row["alpha"] = CONSTANTS["METAL"], color, material.alpha
+    _pack_grain(row, material)
 
 
 def pack_dielectric(row: Any, material: Dielectric) -> None:
@@ -58,6 +59,13 @@ def pack_principled(row: Any, material: Principled) -> None:
     row["alpha"], row["roughness"] = material.facet_alpha, material.roughness
     row["metallic"] = material.metallic / rest if rest > 0 else 0.0
     row["coverage"], row["crossed"] = material.coverage, 1.0
+    _pack_grain(row, material)
+
+
+def _pack_grain(row: Any, material: Metal | Principled) -> None:
+    """Put how much rougher facets are in one direction into fields that other kinds use."""
+    if material.anisotropy > 0:
+        row["ior"], row["crossed"] = material.stretch, math.radians(material.anisotropy_rotation)
 
 
 def pack_nothing(row: Any, material: Nothing) -> None:
@@ -97,19 +105,6 @@ def pack_materials(facts: SceneFacts) -> Array:
             row["details"] = number_of.get(finish.material, row["details"])
     rows["emitter"] = [places.get(_emitter(facts, finish), 0) for finish in finishes]
     return np.concatenate([rows, _glass_parts(facts)])
-
-
-def pack_grains(facts: SceneFacts) -> Array:
-    """Return rows of the struct Grain, one for each finish; none if no material has anisotropy."""
-    finishes = facts.finishes if facts.lobes.anisotropic else ()
-    rows = np.zeros(len(finishes), STRUCTS["Grain"])
-    rows["stretch"] = 1.0
-    for row, finish in zip(rows, finishes, strict=True):
-        material = facts.materials[finish.material]
-        if isinstance(material, Metal | Principled):
-            turn = math.radians(material.anisotropy_rotation)
-            row["turn"], row["stretch"] = (math.cos(turn), math.sin(turn)), material.stretch
-    return rows
 
 
 def _glass_parts(facts: SceneFacts) -> Array:

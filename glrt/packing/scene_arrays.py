@@ -12,7 +12,7 @@ from glrt.gpu.structs import record
 from glrt.packing.kernel_structs import STRUCTS
 from glrt.packing.lights import lamps_of, pack_aims, pack_clusters, pack_lights
 from glrt.packing.material_details import pack_conductors, pack_facets
-from glrt.packing.materials import pack_emitters, pack_grains, pack_materials
+from glrt.packing.materials import pack_emitters, pack_materials
 from glrt.packing.media import medium_row, pack_media
 from glrt.packing.particles import particle_fields
 from glrt.packing.phong import phong_fields
@@ -54,7 +54,6 @@ def pack_scene(
         **pack_coordinates(facts, shapes, eye),
         **pack_maps(facts),
         "Material": pack_materials(facts),
-        "Grain": pack_grains(facts),
         "Conductor": pack_conductors(facts),
         **pack_facets(facts),
         **pack_media(facts),

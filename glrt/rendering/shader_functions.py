@@ -140,6 +140,6 @@ def no_rows() -> dict[str, Array]:
         ("Axes", "Uv", "Tangent", "Map", "Maps"),
         ("Emitter", "Light", "Cluster", "Aim", "Target", "Sides"),
     )
-    details = ("Material", "Grain", "Conductor", "Glass", "Gloss", "Albedo", "Medium", "Boundary")
+    details = ("Material", "Conductor", "Glass", "Gloss", "Albedo", "Medium", "Boundary")
     others = (*trees, *images, *details, *lamps)
     return {struct: np.zeros(0, STRUCTS[struct]) for struct in (*NUMBERED, *others)}

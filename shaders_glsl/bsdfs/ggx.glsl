@@ -48,14 +48,16 @@ vec3 sample_ggx_normal(float alpha, vec3 wo, vec2 u) {
 
 vec3 stretched(Vertex vertex, vec3 w) {
     if (!HAS_ANISOTROPY) return w;
-    return vec3(vertex.stretch * w.x, w.yz);
+    float x = vertex.stretch * w.x;
+    return vec3(x, w.yz);
 }
 
 float pdf_facets(Vertex vertex, vec3 h) {
     float alpha = vertex.material.alpha;
     if (!HAS_ANISOTROPY) return pdf_ggx(alpha, vertex.wo, h);
     float k = vertex.stretch;
-    float density = ggx_d(alpha, vec3(h.x / k, h.yz)) / (2.0 * k * ggx_shadow(alpha, stretched(vertex, vertex.wo)));
+    float x = h.x / k;
+    float density = ggx_d(alpha, vec3(x, h.yz)) / (2.0 * k * ggx_shadow(alpha, stretched(vertex, vertex.wo)));
     return density;
 }
 

@@ -18,11 +18,13 @@ Material part_met(Material material, inout Sampler rng) {
 
 // The vertex with the direction in which its facets are rougher, where its material has one.
 Vertex with_grain(Vertex vertex, Ray ray, Surface surface) {
-    Grain grain = grain_at(surface.material);
-    if (grain.stretch == 1.0) return vertex;
+    Material material = vertex.material;
+    bool may_have = material.kind == METAL || material.kind == PRINCIPLED;
+    if (!may_have || material.ior == 1.0) return vertex;
     Tangents tangents = grain_tangents(ray, surface);
-    vec3 along = grain.turn.x * tangents.along + grain.turn.y * tangents.up;
-    return vertex_along(vertex, along, grain.stretch);
+    float turn = material.crossed;
+    vec3 along = cos(turn) * tangents.along + sin(turn) * tangents.up;
+    return vertex_along(vertex, along, material.ior);
 }
 
 // Absorption per unit length behind a surface; `enters`: whether the inside of the object lies behind it.

@@ -12,21 +12,14 @@ struct Material {
     int kind;        // MATTE, METAL, DIELECTRIC, PANE, PRINCIPLED or NONE
     vec3 emission;   // radiance, light intensity included
     float alpha;     // GGX roughness, the square of the scene file's; 0: smooth
-    float ior;       // inside over outside
+    float ior;       // inside over outside; of metal and principled surfaces: alpha along a direction over that across
     int layer;       // layer of its light group, where light is kept by layers
     int emitter;     // index into the emitters: how it emits
     int details;     // index into the conductors, the glasses or the gloss; or NO_DETAILS
     float metallic;  // share of a principled surface that is metal
     float roughness; // roughness of a principled surface, or the factor of an image
     float coverage;  // chance that a path does not meet a hole of the surface
-    float crossed;   // factor, from an image, of the share of the surface that is glass
-};
-
-// How the facets of a material differ by direction; a row for each material, or none at all.
-struct Grain {
-    vec2 turn;      // cosine and sine of the angle from where u grows to the direction of greater roughness
-    float stretch;  // alpha along that direction over alpha across it; 1: alike all round
-    int spare;      // fills the row
+    float crossed;   // factor, from an image, of the share that is glass; of facets with a direction: its angle from u
 };
 
 // Emission of lamps that do not emit evenly and to both sides.

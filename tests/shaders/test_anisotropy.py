@@ -23,7 +23,7 @@ from tests.support.numerics import Array, float32, lattice
 
 SETUP = """
     mat3 up = frame_around(vec3(0.0, 0.0, 1.0));
-    float stretch = grain_at(0).stretch;
+    float stretch = material_at(0).ior;
     Vertex vertex = vertex_along(vertex_of(up, wo, material_at(0), true), up[0], stretch);"""
 SAMPLE = (
     SETUP
@@ -36,7 +36,7 @@ BESIDE = """
     mat3 up = frame_around(vec3(0.0, 0.0, 1.0));
     vec3 beside = vec3(0.8 * wo.x, 0.6 * wo.x, wo.z);
     Vertex vertex = vertex_along(vertex_of(up, beside, material_at(0), true), up[0],
-                                 grain_at(0).stretch);"""
+                                 material_at(0).ior);"""
 METAL: dict[str, Any] = {"type": "metal", "color": [0.9, 0.5, 0.1], "roughness": 0.4}
 PAINT: dict[str, Any] = {"type": "principled", "color": [0.9, 0.5, 0.1], "roughness": 0.5}
 COAT = {"clearcoat": 1.0, "clearcoat_roughness": 0.5}

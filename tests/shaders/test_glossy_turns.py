@@ -39,7 +39,7 @@ SETUP = """
     vec3 facing = vec3(0.0, 0.0, 1.0);
     Normals normals = Normals(facing, bent);
     Vertex vertex = vertex_of(frame_around(facing), wi, material_at(0), outside == 1);
-    if (HAS_ANISOTROPY) vertex = vertex_along(vertex, vec3(0.6, 0.8, 0.0), grain_at(0).stretch);
+    if (HAS_ANISOTROPY) vertex = vertex_along(vertex, vec3(0.6, 0.8, 0.0), material_at(0).ior);
     Sampler rng = make_sampler(uint(i) * 9781u + 7u);
     Particle particle = start_particle(rng);
     particle.path.ray.direction = -wi;
