@@ -32,6 +32,7 @@ Programs, `python -m bench.NAME`; `--help` lists their options:
 - steps: the bias of ray marching by the length of its steps
 - probe_shares: cost and lag of live probes that are updated in turn
 - window_tour: frame times of the window, driven by a script
+- window_times: time to the window, its picture, and full size after a drag
 - drags: whether the picture in the window follows a drag
 - redraw: how much clearer the picture is while the camera moves
 - upsampling: upsampled against enlarged coarse pictures at equal work
@@ -50,6 +51,7 @@ They share:
 - turns: renderers that take turns, and whether that costs them speed
 - against_side: one side of `against`, which may import a much older glrt
 - gpu_way: one route, pipeline and tier, measured in a process of its own for `gpu`
+- window_times_side: one window, measured in a process of its own for `window_times`
 - load_side: frames of one scene, drawn in a process of its own for `load`
 - checkouts: another commit in a temporary folder
 - ratios: ratios of times from interleaved rounds, with intervals
