@@ -60,11 +60,8 @@ def _made_of(kind: str, name: str, names: Callable[[LobeFacts], list[str]]) -> A
 
 def _followed(kind: str, name: str, names: Callable[[SceneFacts], list[str]]) -> Any:
     """Return the row of a kind of glass that not every method follows."""
-
-    def when(case: Case) -> bool:
-        return case.traits.follows and bool(names(case.facts))
-
-    return _row(when, name, made_of(kind, lambda it: names(it.facts)))
+    why = made_of(kind, lambda it: names(it.facts))
+    return _row(lambda it: it.traits.follows and bool(names(it.facts)), name, why)
 
 
 @dataclass(frozen=True)

@@ -18,8 +18,8 @@ from glrt.rendering.paths.values import PixelPaths
 from glrt.scene.scene import Scene
 from glrt.scene.scenefile.catalog import MODELS
 from glrt.scene.scenefile.toml_writer import scene_with, write_scene
-from glrt.settings import RenderSettings, settings_for
-from glrt.view.edits.edited_state import State
+from glrt.settings import RenderSettings
+from glrt.view.edits.edited_state import State, plain
 from glrt.view.edits.file_camera import seen_as_before, to_be_saved
 from glrt.view.edits.sky_images import is_sky, with_sky_image
 from glrt.view.edits.unsaved import is_edited, is_other
@@ -176,8 +176,7 @@ class Files:
 
     def _take(self, scene: Scene, settings: RenderSettings) -> None:
         self.session.problem = ""
-        plain = settings_for(settings, crop=None, denoise="none", adaptive="off")
-        self.session.open(State(scene, plain))
+        self.session.open(State(scene, plain(settings)))
         self.show(scene)
 
     def follow(self, now: float) -> None:

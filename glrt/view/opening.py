@@ -19,8 +19,8 @@ from glrt.scene.model_scene import is_model
 from glrt.scene.scene import Scene
 from glrt.scene.scenefile.catalog import PICTURES, find
 from glrt.scene.scenefile.toml import read_scene
-from glrt.settings import RenderSettings, settings_for
-from glrt.view.edits.edited_state import State
+from glrt.settings import RenderSettings
+from glrt.view.edits.edited_state import State, plain
 from glrt.view.kernel_notes import Driver, Note
 from glrt.view.scene_compiler import compile_for
 
@@ -131,7 +131,7 @@ class Opening:
     def _compile(
         self, scene: Scene, given: RenderSettings, tree: SceneTree | None, driver: Driver
     ) -> None:
-        settings = settings_for(given, crop=None, denoise="none", adaptive="off")
+        settings = plain(given)
         layering = "none" if driver.pipeline == "fragment" else State(scene, settings).layering
         heard = partial(self._hear, "compiling", 0.0)
         heard()

@@ -5,7 +5,7 @@ from typing import Any
 
 from glrt.plan.plan import Layering
 from glrt.scene.scene import Scene
-from glrt.settings import Aov, Settings, settings_for
+from glrt.settings import Aov, RenderSettings, Settings, settings_for
 
 
 @dataclass(frozen=True)
@@ -40,3 +40,8 @@ class State:
         """Return the state with width and height divided by `factor`; unchanged up to 1."""
         width, height = (max(1, round(side / factor)) for side in self.settings.size)
         return self.sized(width, height) if factor > 1 else self
+
+
+def plain(settings: RenderSettings) -> Settings:
+    """Return the settings of a file as the window opens it: a whole picture, as it is rendered."""
+    return settings_for(settings, crop=None, denoise="none", adaptive="off")
