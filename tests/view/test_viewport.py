@@ -37,6 +37,12 @@ class Turned:
     def walk(self, right: float, up: float, forward: float, seconds: float) -> None:
         self.steps.append((right, up, forward))
 
+    def keep_view(self, number: int) -> None:
+        raise AssertionError(f"view {number} is kept")
+
+    def recall_view(self, number: int) -> None:
+        raise AssertionError(f"view {number} is recalled")
+
 
 @pytest.fixture
 def io() -> Iterator[imgui.IO]:
