@@ -29,6 +29,7 @@ class Turned:
         self.awaited = None
         self.is_deaf = self.navigates = self.was_busy = self.has_list_keys = False
         self.shows_start = False
+        self.exports = SimpleNamespace(unless_under_way=lambda act: act())  # none is under way
 
     def turn(self, across: float, down: float, about_camera: bool) -> None:
         assert not about_camera
