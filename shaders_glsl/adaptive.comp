@@ -36,7 +36,7 @@ void main() {
     Pixel pixel = load_pixel(texel);
     Layers layers = empty_layers();
     int lost = add_samples(pixel, layers, frame.origin + texel, frame.first_sample + int(pixels[row].y));
-    if ((HAS_SPHERE_TREE || HAS_TREE || HAS_MESH) && lost > 0) atomicAdd(lost_samples, uint(lost));
+    if (MAY_LOSE && lost > 0) atomicAdd(lost_samples, uint(lost));
     imageStore(target_mean, texel, vec4(pixel.mean, pixel.count));
     imageStore(target_variance, texel, vec4(pixel.variance, pixel.observations));
     if (BLOCK > 1) imageStore(target_block, texel, vec4(pixel.block, pixel.begun));

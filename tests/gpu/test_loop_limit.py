@@ -8,6 +8,7 @@ import pytest
 
 from glrt.cli.main import main
 from glrt.cli.reports.render_report import Done
+from glrt.core.resources import folder
 from glrt.gpu import driver_checks
 from glrt.gpu.context import Context
 from glrt.gpu.driver_checks import usable_rounds
@@ -25,6 +26,17 @@ from tests.truths.test_grids import smoke, with_smoke
 def hopeful(monkeypatch: pytest.MonkeyPatch) -> None:
     """The renderer believes that rays run through any tree in no time."""
     monkeypatch.setattr(schedule.iterations_per_sample, "__defaults__", (0.0,))  # of `tree_rounds`
+
+
+def test_kernels_report_losses_by_the_same_rule() -> None:
+    reports = {
+        file.name: line
+        for file in folder("shaders_glsl").rglob("*.comp")
+        for line in file.read_text().splitlines()
+        if "atomicAdd(lost_samples" in line
+    }
+    assert {"trace.comp", "adaptive.comp", "aov.comp", "particles.comp"} <= {*reports}
+    assert all("if (MAY_LOSE && " in line for line in reports.values()), reports
 
 
 @pytest.mark.slow
