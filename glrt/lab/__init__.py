@@ -14,8 +14,7 @@ Modules, each importing only what stands above it:
 - probes: light through thin walls, rooms that hardly absorb
 - reuse: points of other pixels, where slats stand between
 - denoising: the bias of a filter, what is thin, and fireflies
-- media: depth, turns, colours and bounds of media
-- marching: grids that are crossed in steps
+- volumes: light in volumes
 - temporal: what is shown from frame to frame
 - blur: the blur of what moves while the shutter is open
 - sky: a sun of one pixel in an image of the sky

@@ -5,8 +5,6 @@ from glrt.lab import (
     denoising,
     glass,
     lamps,
-    marching,
-    media,
     own_counts,
     particles,
     points,
@@ -23,6 +21,7 @@ from glrt.lab import (
 )
 from glrt.lab.sweep import Case
 from glrt.lab.temporal import live_probes, moving, still_pixel
+from glrt.lab.volumes import marching, media
 
 _ALL = (
     Case("distance", "A distant sphere", rays.distance),

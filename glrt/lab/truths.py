@@ -4,10 +4,10 @@ import math
 from typing import Any, NamedTuple
 
 from glrt.lab.glass import bulb_light, bulb_room
-from glrt.lab.media import equilibrium, sight_into_fog
 from glrt.lab.scenes import Table
 from glrt.lab.sums import glowing_room, sum_of_bounces
 from glrt.lab.textures import ALPHA, thin_layers
+from glrt.lab.volumes.media import equilibrium, sight_into_fog
 from glrt.scene.scene import Scene
 
 _ALBEDO, _BOUNCES = 0.9, 1000  # of the room

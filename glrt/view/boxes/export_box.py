@@ -80,9 +80,7 @@ def _begin(exports: Exports) -> None:
     if imgui.button("export"):
         exports.ask_begin()
     imgui.end_disabled()
-    imgui.same_line()
-    if imgui.button("close"):
-        exports.is_open = False
+    _close_button(exports)
     if problem:
         imgui.push_style_color(imgui.Col_.text, _RED)
         imgui.text_wrapped(escaped(problem))
@@ -101,6 +99,10 @@ def _progress(exports: Exports, job: Job) -> None:
     if imgui.button("cancel"):
         exports.cancel()
     imgui.end_disabled()
+    _close_button(exports)
+
+
+def _close_button(exports: Exports) -> None:
     imgui.same_line()
     if imgui.button("close"):
         exports.is_open = False
