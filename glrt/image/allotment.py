@@ -22,6 +22,7 @@ Array = NDArray[np.float32]
 Floats = NDArray[np.float64]
 Counts = NDArray[np.int32]
 Mask = NDArray[np.bool_]
+Sizes = NDArray[np.int64]
 
 NO_SHARES: Array = np.zeros((0, 0), np.float32)  # of a picture whose pixels have equal counts
 NO_COUNTS: Counts = np.zeros((0, 0), np.int32)
@@ -48,12 +49,12 @@ def shares_of(mean: NDArray[Any], variance: NDArray[Any]) -> Array:
 
     `mean` is the floor's, and `variance` that of its observations, (H, W, 3) each. A share is in
     proportion to the root of the mean variance of the neighbours in the other half, each relative
-    to its radiance as in `relative_error`. It lies between LEAST and MOST; if few pixels are noisy,
-    all get what these leave.
+    to its radiance as in `relative_error`. All pixels of a group have one share. It lies between
+    LEAST and MOST; if few pixels are noisy, all get what these leave.
     """
     shares = np.ones(mean.shape[:2], np.float64)
     for half in halves(shares.shape):
-        noise = _pooled(_relative(mean, variance, ~half), ~half)[half]
+        noise = _by_groups(_pooled(_relative(mean, variance, ~half), ~half))[half]
         if half.any() and noise.any():
             shares[half] = _scaled(np.sqrt(noise))
     return shares.astype(np.float32)
@@ -62,15 +63,19 @@ def shares_of(mean: NDArray[Any], variance: NDArray[Any]) -> Array:
 def counts_of(shares: Array, samples: int, settings: Settings) -> Counts:
     """Samples of each pixel, (H, W), if a pixel has `samples` on average, the floor at least.
 
-    Whole units are dealt out so that no count falls when `samples` rises (Webster's method). The
-    mean of a half is at most one unit over its pixels below `samples`.
+    Whole units are dealt out so that no count falls when `samples` rises (Webster's method). All
+    pixels of a group have one count. The mean of a half is below `samples` by less than one unit
+    for each pixel of a group.
     """
     floor, unit = floor_of(settings), unit_of(settings)
     counts = np.full(shares.shape, samples, np.int32)
+    sizes = np.broadcast_to(_group_sizes(shares.shape[1]), shares[:, ::GROUP].shape)
     for half in halves(shares.shape):
         if samples > floor and half.any():
-            own = shares[half].astype(np.float64)
-            counts[half] = unit * _dealt(own, samples * own.size // unit, floor // unit)
+            groups = half[:, ::GROUP]
+            own, pixels = shares[:, ::GROUP][groups].astype(np.float64), sizes[groups]
+            dealt = _dealt(own, pixels, samples * int(pixels.sum()) // unit, floor // unit)
+            counts[half] = unit * np.repeat(dealt, pixels)
     return counts
 
 
@@ -101,6 +106,18 @@ def _pooled(values: Floats, half: Mask) -> Floats:
     return np.divide(total, count, out=np.zeros_like(total), where=count > 0)
 
 
+def _group_sizes(width: int) -> Sizes:
+    """Pixels of each group of a row."""
+    return np.diff(np.arange(0, width, GROUP), append=width)
+
+
+def _by_groups(values: Floats) -> Floats:
+    """The mean over the group of each pixel, (H, W)."""
+    width = values.shape[1]
+    sums = np.add.reduceat(values, np.arange(0, width, GROUP), axis=1)
+    return np.asarray(np.repeat(sums / _group_sizes(width), _group_sizes(width), axis=1))
+
+
 def _window_sum(values: Floats) -> Floats:
     """Sum over a window of 2 REACH + 1 pixels along both edges; 0 beyond the picture."""
     for axis in (0, 1):
@@ -122,17 +139,21 @@ def _scaled(noise: Floats) -> Floats:
     return np.asarray(shares + (1 - shares.mean()))
 
 
-def _dealt(shares: Floats, total: int, least: int) -> NDArray[np.int64]:
-    """Units of pixels, `total` in all and each at least `least`, in proportion to `shares`."""
+def _dealt(shares: Floats, pixels: Sizes, total: int, least: int) -> Sizes:
+    """Units of the pixels of each group, at least `least`, in proportion to `shares`.
+
+    They are `total` over all pixels, less what does not suffice for the next group.
+    """
 
     def units(scale: float) -> Floats:
         return np.asarray(np.maximum(np.floor(scale * shares + 0.5), least))
 
-    low, high = 0.0, (total + 1) / float(shares.max())
+    low, high = 0.0, (total + int(pixels.max())) / float((shares * pixels).max())
     while high - low > 1e-13 * high:
         middle = (low + high) / 2
-        low, high = (middle, high) if units(middle).sum() <= total else (low, middle)
+        low, high = (middle, high) if units(middle) @ pixels <= total else (low, middle)
     dealt = units(low)
-    left = total - int(dealt.sum())  # several pixels are next at once: the first of them
-    dealt[np.argsort((dealt + 0.5) / shares, kind="stable")[:left]] += 1
+    order = np.argsort((dealt + 0.5) / shares, kind="stable")  # several may be next at once
+    fits = np.cumsum(pixels[order]) <= total - int(dealt @ pixels)
+    dealt[order[fits]] += 1
     return dealt.astype(np.int64)

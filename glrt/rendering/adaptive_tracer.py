@@ -163,8 +163,8 @@ class AdaptiveTracer(Tracer):
             self._list.list_all()
             super()._work_on_picture(min(remaining, short), planned, policy)
             return
-        most = max(1, int(self.film.samples * policy.share))
-        frame = self._frame or self._begun(min(remaining, most, self._unit))
+        most = max(self._unit, int(self.film.samples * policy.share))
+        frame = self._frame or self._begun(min(remaining, most))
         if not frame.is_complete:
             self._work_on_frame(frame, planned, policy)
         if self._frame and frame.is_complete:
@@ -180,7 +180,7 @@ class AdaptiveTracer(Tracer):
             film.shares = shares_of(floor.mean, floor.variance)
             film.counts = np.full(film.shares.shape, film.samples, np.int32)
         samples = film.samples + more
-        counts = counts_of(film.shares, samples, settings)
+        counts = np.maximum(counts_of(film.shares, samples, settings), film.counts)
         sizes = self._list.list_missing(film.counts, counts, unit)
         film.copy_to_targets()
         self._frame = _Frame(samples, counts, sizes, unit)

@@ -12,7 +12,7 @@ import pytest
 from glrt.comparison.verdict import compare
 from glrt.core.errors import UsageError
 from glrt.gpu.context import Context
-from glrt.image.allotment import counts_of, shares_of
+from glrt.image.allotment import GROUP, counts_of, shares_of
 from glrt.image.image import Image
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.schedule import HEADLESS
@@ -65,7 +65,7 @@ def test_each_pixel_has_the_bits_of_a_render_with_as_many_samples(
 
 def test_samples_are_the_mean_of_counts(context: Context, adaptive: Image) -> None:
     assert adaptive.samples == 160
-    assert abs(adaptive.counts.mean() - 160) < 0.1
+    assert -16 * GROUP < adaptive.counts.sum() / 2 - 160 * 29 * 9 <= 0
     assert adaptive.counts.min() >= FLOOR
     assert (adaptive.counts % 16 == 0).all()
     assert (taken(context, 40).counts == 40).all()
