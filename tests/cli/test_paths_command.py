@@ -178,6 +178,7 @@ def test_a_picture_is_a_scene_with_its_settings(
         assert np.array_equal(np.array(told["mean"], np.float32), wanted)
 
 
+@pytest.mark.slow
 def test_particles_are_listed_apart_and_come_out_again(
     context: Context, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

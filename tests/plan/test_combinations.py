@@ -44,6 +44,7 @@ WORKING = [pair for pair in pairs() if works(*pair)]
 REFUSED = [pair for pair in pairs() if not works(*pair)]
 
 
+@pytest.mark.slow_cases("a crop-a method with probes", "a method with probes-reuse of points")
 @pytest.mark.slow_cases(
     "--resume-AOVs",
     "--resume-a method with probes",

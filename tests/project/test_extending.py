@@ -217,6 +217,7 @@ BEFORE = {"A light": "A shape"}  # the section whose steps come first
 LAMPS = {"A light": (*SAMPLED, "annulus")}  # kinds of lamps after the steps
 
 
+@pytest.mark.slow_cases("A light")
 @pytest.mark.parametrize("section", PROGRAMS)
 def test_the_steps_suffice(section: str, tmp_path: Path) -> None:
     done = run(extended(tmp_path, steps_before(section) + steps_of(section)), PROGRAMS[section])

@@ -254,6 +254,7 @@ def test_stretched_instances_are_shaded_as_if_kept_apart(
     assert apart < 0.1 * np.sqrt(np.mean((other - theirs) ** 2))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("power", [-7, 6])
 def test_instances_scaled_by_a_power_of_two_keep_their_bits(context: Context, power: int) -> None:
     settings: dict[str, Any] = {"width": 16, "height": 16, "bounces": 6}

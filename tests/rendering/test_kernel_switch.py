@@ -57,6 +57,7 @@ def seen(scene: Scene, **changes: Any) -> Scene:
     return replaced(scene, camera=replaced(scene.camera, **changes))
 
 
+@pytest.mark.slow_cases("compute-none-*")
 @pytest.mark.slow_cases("fragment-none-independent")
 @pytest.mark.slow_cases("compute-lengths-independent", "compute-lengths-sobol")
 @pytest.mark.parametrize("sampler", SAMPLERS)

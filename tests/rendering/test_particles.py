@@ -40,6 +40,7 @@ def test_particles_change_the_noise_alone(context: Context, name: str) -> None:
     assert_agree(image, without, within=0.05)
 
 
+@pytest.mark.slow
 def test_a_link_through_rough_glass_knows_what_lies_on_each_side(context: Context) -> None:
     """A lamp behind a tinted ball of it.
 

@@ -257,6 +257,7 @@ def lit() -> Scene:
     return scene_of(objects, {"white": white, "lamp": lamp(4.0)}, render={"bounces": 5})
 
 
+@pytest.mark.slow_cases("nee-sobol")
 @pytest.mark.parametrize(("method", "sampler"), WAYS)
 def test_all_samplers_show_one_picture(context: Context, method: str, sampler: str) -> None:
     samples = 1024 if method == "naive" else 256

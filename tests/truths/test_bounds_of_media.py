@@ -114,6 +114,7 @@ def test_a_bound_is_no_bounce(context: Context) -> None:
     assert_allclose(dim, clear * np.exp(-MU), rtol=0.02)
 
 
+@pytest.mark.slow
 def test_many_bounds_are_passed(context: Context) -> None:
     """Sixteen of them stand between the eye and a lamp."""
     lamp_behind = quad([-9, -9, -40], [18, 0, 0], [0, 18, 0], "lamp")

@@ -133,6 +133,11 @@ def scene(things: list[dict[str, Any]], camera: dict[str, Any] = ASIDE) -> Scene
 
 
 @pytest.mark.slow_cases(
+    "two that overlap, the dim one first-nee",
+    "one in the plane of a ceiling-nee",
+    "one of one side under a ceiling that comes first-nee",
+)
+@pytest.mark.slow_cases(
     "one on the face of a box-naive",
     "one on the face of a box-nee",
     "one on the face of a box-mis",

@@ -50,6 +50,15 @@ LAMPS = {
 # --- cones ---------------------------------------------------------------------------------
 
 
+@pytest.mark.slow_cases(
+    "sphere-nee",
+    "sphere-phong",
+    "sphere-whitted",
+    "sphere-cook",
+    "quad-whitted",
+    "disk-phong",
+    "disk-whitted",
+)
 @pytest.mark.slow_cases("mesh-naive")
 @pytest.mark.slow_cases("mesh-nee", "mesh-mis", "mesh-whitted", "mesh-cook")
 @pytest.mark.parametrize("method", [*METHODS, *MODELS])

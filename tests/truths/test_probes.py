@@ -69,6 +69,7 @@ def directions(side: int) -> Floats:
 # --- pictures ---------------------------------------------------------------------------------
 
 
+@pytest.mark.slow_cases("gather-*")
 @pytest.mark.parametrize(
     ("method", "bounces"), [("ddgi", 0), ("ddgi", 1), ("gather", 0), ("gather", 1), ("gather", 2)]
 )
@@ -80,6 +81,7 @@ def test_light_that_probes_do_not_bring_is_that_of_mis_to_the_bit(
     assert same(probes, rendered(mixture(), context, 16, method="mis", **ways))
 
 
+@pytest.mark.slow_cases("sphere-gather")
 @pytest.mark.parametrize("method", GATHERS)
 @pytest.mark.parametrize("name", ROOMS)
 def test_as_many_bounces_as_probes_bring_one_of_are_exact_in_a_closed_room(

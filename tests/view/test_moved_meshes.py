@@ -58,6 +58,7 @@ def fresh(scene: Scene, context: Context, **more: Any) -> Any:
     return image
 
 
+@pytest.mark.slow
 def test_a_large_mesh_that_is_moved_again_builds_and_uploads_no_tree(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -34,6 +34,7 @@ BOTH: list[tuple[str, Mode]] = [(way, "reproject") for way in WAYS]
 BOTH += [(way, mode) for mode in HISTORIES for way in WAYS]
 
 
+@pytest.mark.slow_cases("particles-*")
 @pytest.mark.slow_cases("layers by lengths-ataa")
 @pytest.mark.parametrize(("way", "mode"), BOTH)
 def test_the_screen_has_history_and_the_film_has_none(

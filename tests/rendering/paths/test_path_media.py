@@ -14,6 +14,7 @@ GAS = medium(scattering=[2, 1, 0.5], absorption=0.2, emission=[0.1, 0.2, 0.3], g
 EYE: dict[str, Any] = {"position": [0, 0, 4], "look_at": [0, 0, 0], "fov": 20}
 
 
+@pytest.mark.slow
 def test_lights_in_gas_add_up_to_the_pixel(context: Context) -> None:
     if not context.is_software:
         pytest.skip("bits are promised on software drivers alone")
