@@ -19,9 +19,11 @@ _EXR_MAGIC = b"\x76\x2f\x31\x01"
 
 def read_exr(path: Path, header_only: bool = False) -> tuple[Mapping[str, Any], Mapping[str, Any]]:
     """Header and channels by name, (H, W) each; UsageError if the file cannot be read."""
-
     if _first_bytes(path) != _EXR_MAGIC:
-        raise UsageError(f"{path}: not an EXR image, despite its name; give one that is.")
+        if path.suffix.lower() == ".exr":
+            raise UsageError(f"{path}: not an EXR image, despite its name; give one that is.")
+        why = "Only EXR files hold exact radiance: render to a name that ends in .exr."
+        raise UsageError(f"{path}: not an EXR image. {why}")
     header, channels = _opened_exr(path, True, "its header is damaged")
     if not header_only:
         _check_size(header["dataWindow"], path)

@@ -265,5 +265,5 @@ def test_a_picture_that_cannot_be_opened_is_refused(tmp_path: Path, name: str) -
 
 def test_only_exr_holds_radiance_to_load(tmp_path: Path, image: Image) -> None:
     image.save(tmp_path / "x.png")
-    with pytest.raises(UsageError, match=r"x\.png: not an EXR image"):
+    with pytest.raises(UsageError, match=r"x\.png: not an EXR image\. Only EXR files hold exact"):
         Image.load(tmp_path / "x.png")
