@@ -108,7 +108,7 @@ SLOW = (  # half a second each, or more
     "the_picture_follows_the_handles",
     "buttons_and_boxes_of_the_scene_restart_it",
     "views_of_aovs_cost_no_sample_and_are_not_saved",
-    "commands_stay_in_sight_while_the_panel_scrolls",
+    "a_problem_stays_in_sight_while_the_panel_scrolls",
     "a_widget_stays_where_it_is_when_rows_come_and_go",
     "every_control_of_the_panel_is_moved_here",
     "probes_are_live_while_edits_follow_one_another",

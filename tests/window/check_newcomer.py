@@ -18,7 +18,7 @@ CTRL, SHIFT = imgui.Key.mod_ctrl.value, imgui.Key.mod_shift.value
 SMALLEST = (640, 400)
 CLOSED = ("Inspect", "Background", "Sun", "Frame", "Files", "Mouse and keys")  # parts, at the start
 ROWS = (
-    *("pause", "undo", "redo", "restart", "home", "fit", "16:1"),
+    *("restart", "home", "fit", "16:1"),
     *("object", "add", "delete", "focus here", "make unique", "new##material"),
     *("keep this picture", "forget it", "swap A and B", "side by side", "wipe"),
     *("show the difference", "scene", "recent", "##open", "##save", "##scene file"),
@@ -41,17 +41,6 @@ def undo_and_redo_report_what_they_change(hand: Hand) -> None:
         assert f"Redo: hidden of {shape.name}" in lines
     hand.there(app.undo)
     app.selected = None
-
-
-@check
-def the_button_that_undoes_reports_what(hand: Hand) -> None:
-    hand.there(lambda: hand.session.edit(seed=hand.session.settings.seed + 1))
-    tips: list[str] = []
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("glrt.view.panels.bar.tip", tips.append)
-        hand.ctx.mouse_move("//Controls/undo")
-        hand.until(lambda: bool(tips))
-    assert tips[0] == "Undo: seed (Ctrl+Z)"
 
 
 @check

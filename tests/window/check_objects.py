@@ -115,7 +115,7 @@ def the_gizmo_moves_what_is_selected_without_compiling(hand: Hand) -> None:
     assert hand.session.scene.camera == camera
     assert hand.session.restarts > restarts
     assert hand.session.last_cost is Cost.RESTART
-    hand.ctx.item_click("//Controls/undo")
+    hand.ctx.item_click("//Picture/###undo")
     hand.settle()
     assert hand.session.scene.objects[number] == shape
     hand.window.app.selected = None

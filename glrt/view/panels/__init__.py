@@ -3,7 +3,7 @@
 Modules, each importing only what stands above it:
 
 - layout: sizes of the panels, and their ground
-- bar: commands that do not scroll
+- bar: what does not scroll
 - confirmations: questions before data is lost
 - tour: five steps for a newcomer
 - legend: legend of false colours

@@ -1,4 +1,4 @@
-"""Bar of commands at the top of the panel: it stays in sight while the rows scroll below it."""
+"""Top of the panel: the present problem stays in sight while the rows scroll below it."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -6,8 +6,6 @@ from contextlib import contextmanager
 from imgui_bundle import ImVec2, imgui
 
 from glrt.view.app import App
-from glrt.view.state.keys import Action, label
-from glrt.view.widgets.fields import beside, button, tip
 from glrt.view.widgets.steady_widget import ANCHOR
 
 _MOST = 0.3  # share of the panel's height that a problem may fill
@@ -19,9 +17,7 @@ def below_bar(app: App) -> Iterator[None]:
     """Draw the bar at the top of the panel; rows drawn inside the block are clipped below it."""
     panel, start = imgui.internal.get_current_window(), imgui.get_cursor_pos()
     imgui.set_cursor_pos_y(start.y + imgui.get_scroll_y())
-    _commands(app)
     _problem(app)
-    imgui.separator()
     end = imgui.get_cursor_pos_y() - imgui.get_scroll_y()  # from the panel's corner
     panel.deco_inner_size_y1 = end - panel.deco_outer_size_y1  # focus by keys is not under it
     imgui.set_cursor_pos(ImVec2(start.x, end))
@@ -36,29 +32,6 @@ def bar_end() -> float:
     """Return where the rows begin, in pixels from the panel's upper edge."""
     panel = imgui.internal.get_current_window()
     return float(panel.deco_outer_size_y1 + panel.deco_inner_size_y1)
-
-
-def _commands(app: App) -> None:
-    session = app.session
-    if imgui.button("go on" if session.paused else "pause"):
-        app.pause()
-    beside("undo")
-    if button("undo", session.history.can_undo):
-        app.undo()
-    _step_text(app, "undo")
-    beside("redo")
-    if button("redo", session.history.can_redo):
-        app.redo()
-    _step_text(app, "redo")
-
-
-def _step_text(app: App, action: Action) -> None:
-    """Show a tooltip on a button: the edit that it undoes or redoes, and its keys."""
-    is_hovered = imgui.is_item_hovered()
-    what = (app.undoes if action == "undo" else app.redoes) if is_hovered else ""
-    keys = " or ".join(label(chord) for chord in app.preferences.bindings[action])
-    if what:
-        tip(f"{what} ({keys})" if keys else what)
 
 
 def _problem(app: App) -> None:
@@ -78,3 +51,4 @@ def _problem(app: App) -> None:
         imgui.end_child()
     if imgui.button("dismiss"):
         app.session.problem = ""
+    imgui.separator()
