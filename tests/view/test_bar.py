@@ -7,11 +7,14 @@ from typing import Any
 import pytest
 from imgui_bundle import ImVec2, imgui
 
-from glrt.view.panels.bar import below_bar
+from glrt.view.state.preferences import Preferences, Tab
+from glrt.view.tabs.bar import below_bar
 from glrt.view.widgets.fields import button
 from glrt.view.widgets.steady_widget import ANCHOR
 
 SIZE = ImVec2(300.0, 200.0)
+TOP = 36.0  # pixels, below the title of the window: in the line of the tabs
+TABS: tuple[Tab, ...] = ("Scene", "Light")
 
 
 class Panel:
@@ -25,7 +28,9 @@ class Panel:
         self.io.backend_flags |= imgui.BackendFlags_.renderer_has_textures.value
         self.io.set_ini_filename("")
         self._context = context
-        self.app: Any = SimpleNamespace(session=SimpleNamespace(problem=""))
+        self.app: Any = SimpleNamespace(
+            session=SimpleNamespace(problem=""), preferences=Preferences(), prefer=self._prefer
+        )
         self.above, self.below = 10, 30
         self.places: dict[str, ImVec2] = {}  # of the upper left corners, on the screen
         self.pressed: list[str] = []
@@ -33,6 +38,9 @@ class Panel:
         self.goes_to = ""
         ANCHOR.forget()
         self.frame(2)
+
+    def _prefer(self, preferences: Preferences) -> None:
+        self.app.preferences = preferences
 
     def frame(self, count: int = 1, scroll: float | None = None) -> None:
         for _ in range(count):
@@ -42,7 +50,7 @@ class Panel:
             imgui.begin("Controls")
             if scroll is not None:
                 imgui.set_scroll_y(scroll)
-            with below_bar(self.app):
+            with below_bar(self.app, TABS):
                 for number in range(self.above):
                     self._row(f"above {number}")
                 self._row("used")
@@ -112,6 +120,16 @@ def test_a_problem_stays_where_it_is_and_rows_end_below_it(panel: Panel, scroll:
     panel.click(20.0, top - 16)
     assert panel.app.session.problem == ""
     assert len(panel.pressed) == 1
+
+
+def test_a_click_on_a_tab_chooses_it(panel: Panel) -> None:
+    panel.frame(2)
+    style = imgui.get_style()
+    names = [imgui.calc_text_size(tab).x + 2 * style.frame_padding.x for tab in TABS]
+    panel.click(style.window_padding.x + names[0] + style.item_spacing.x + 5, TOP)
+    assert panel.app.preferences.tab == "Light"
+    panel.click(style.window_padding.x + 5, TOP)
+    assert panel.app.preferences.tab == "Scene"
 
 
 def test_keys_and_scrolls_know_where_the_bar_ends(panel: Panel) -> None:

@@ -103,7 +103,6 @@ SLOW = (  # half a second each, or more
     "edits_are_not_lost_unasked",
     "a_scene_dropped_on_edits_is_opened_when_that_is_agreed",
     "keys_are_chosen_in_the_panel",
-    "a_row_stays_where_it_is_though_there_is_nothing_to_scroll",
     "a_black_picture_has_figures",
     "the_picture_follows_the_handles",
     "buttons_and_boxes_of_the_scene_restart_it",

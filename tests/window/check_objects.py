@@ -205,7 +205,7 @@ def what_edits_of_an_object_cost_stands_next_to_them(hand: Hand) -> None:
         patch.setattr(objects, "edited", seen)
         patch.setattr(objects, "tag", marks.append)
         hand.window.app.selected = number
-        hand.ctx.yield_(2)
+        hand.turn_to("Scene")
     words = dict.fromkeys(("material", "ready-made", "type"), Cost.RECOMPILE)
     assert costs == {**words, "handles": Cost.RESTART}
     assert set(marks) == {Cost.RECOMPILE}  # of new objects

@@ -16,15 +16,15 @@ STEPS = (
     ),
     (
         "Change the light",
-        "Drag the intensity or a colour under Light. The mark next to each control shows what an "
-        "edit costs. Ring with a dot: all samples stay. Disk: they are discarded. Square: a kernel "
-        "is compiled first.",
+        "Drag the intensity or a colour in the tab Light. The mark next to each control shows what "
+        "an edit costs. Ring with a dot: all samples stay. Disk: they are discarded. Square: a "
+        "kernel is compiled first.",
     ),
     (
         "Edit objects",
         "Click an object: it is outlined, its handles move it, and the panel shows its "
-        "material. The button add, under Object, makes a new object. Everything can be undone by "
-        "Ctrl-Z.",
+        "material. The button add, in the tab Scene, makes a new object. Everything can be undone "
+        "by Ctrl-Z.",
     ),
     (
         "Ask a pixel",
@@ -82,4 +82,4 @@ def _answers(app: App, step: int) -> None:
     imgui.same_line()
     if button("do not show again"):
         app.prefer(replaced(app.preferences, tour=False))
-    tip("Tick tour under Window, at the end of the panel, to see it again; x closes it until then")
+    tip("Tick tour in the tab Window to see it again; x closes it until then")
