@@ -21,5 +21,5 @@ def test_views_of_the_same_rows_are_not_compared(monkeypatch: pytest.MonkeyPatch
     compared: list[object] = []
     monkeypatch.setattr(np, "array_equal", lambda *given: compared.append(given) or True)
     assert same_rows(ROWS[1:], ROWS[1:])
-    assert same_rows(ROWS.view(np.uint32)[:, 0], ROWS.view(np.uint32)[:, 0])
+    assert same_rows(ROWS.ravel(), ROWS.ravel())
     assert not compared
