@@ -15,7 +15,7 @@ from glrt.image.sources import load
 from glrt.plan.plan import ONE, Weight
 from glrt.view.figure_texts import error_text, forecast
 from glrt.view.state import error_history
-from glrt.view.state.error_history import EMPTY, GROWTH, PAUSE, Look, Progress, look_at
+from glrt.view.state.error_history import EMPTY, GROWTH, PAUSE, Look, Progress, read
 from tests.support.mixed_scene import everything
 from tests.support.renders import rendering
 
@@ -207,10 +207,10 @@ def test_a_look_reports_what_the_picture_tells(context: Context) -> None:
     with rendering(everything(), context) as renderer:
         renderer.render(1)
         with context.gl:
-            assert look_at(renderer, (ONE,), 0.1) is None
+            assert read(renderer, (ONE,), 0.1).look() is None
         image = renderer.render(8).image()
         with context.gl:
-            look = look_at(renderer, weights, 0.5)
+            look = read(renderer, weights, 0.5).look()
     assert look is not None
     assert (look.samples, look.seconds, look.nonfinite) == (8, 0.5, 0)
     assert look.error == pytest.approx(image.error), "light that is twice as much is as sure"
@@ -224,7 +224,7 @@ def test_the_rim_of_a_small_sun_is_not_believed(context: Context) -> None:
     with rendering(scene, context, **size) as renderer:
         renderer.render(64)
         with context.gl:
-            look = look_at(renderer, (ONE,), 1.0)
+            look = read(renderer, (ONE,), 1.0).look()
     assert look
     assert look.error < 0.03
     assert "not to be believed" in error_text(look)
@@ -237,7 +237,7 @@ def test_an_error_that_is_not_to_be_believed_is_reported_so(context: Context, is
     with rendering(scene, context, **size) as renderer:
         renderer.render(64)
         with context.gl:
-            known, relit = (look_at(renderer, (weight,), 1.0) for weight in (ONE, HALF))
+            known, relit = (read(renderer, (weight,), 1.0).look() for weight in (ONE, HALF))
     assert known
     assert known.is_doubtful is is_rim
     assert ("not to be believed" in error_text(known)) is is_rim

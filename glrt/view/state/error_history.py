@@ -74,11 +74,6 @@ def read(renderer: Renderer, weights: Weights, seconds: float) -> Reading:
     )
 
 
-def look_at(renderer: Renderer, weights: Weights, seconds: float) -> Look | None:
-    """Read a picture, its layers weighted, and return its figures; None without an error yet."""
-    return read(renderer, weights, seconds).look()
-
-
 class Progress:
     """Looks at one picture since its first sample, separate from looks under another light."""
 
