@@ -33,6 +33,7 @@ Programs, `python -m bench.NAME`; `--help` lists their options:
 - steps: the bias of ray marching by the length of its steps
 - probe_shares: cost and lag of live probes that are updated in turn
 - window_tour: frame times of the window, driven by a script
+- window_films: films of the window in README and docs
 - window_times: time to the window, its picture, and full size after a drag
 - drags: whether the picture in the window follows a drag
 - redraw: how much clearer the picture is while the camera moves

@@ -1,8 +1,7 @@
-"""The window, driven by a script: `python -m bench.window_tour drag`, `rest`, `idle`, `film`.
+"""The window, driven by a script: `python -m bench.window_tour drag`, `rest`, `idle`.
 
 `drag` measures frame times while the camera turns, `rest` while nothing is edited, `idle` what a
-complete picture takes of the processor; `film FILE.webp` makes the picture of the window in the
-README. Without a display a virtual X server, Xvfb, is used.
+complete picture takes of the processor. Without a display a virtual X server, Xvfb, is used.
 """
 
 import argparse
@@ -12,15 +11,12 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import nullcontext
-from functools import partial
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from bench.screens import screen
 from glrt.image.sources import load
-from glrt.scene.scene import with_lights
 from glrt.settings import settings_for
 from glrt.view.state.preferences import Preferences
 
@@ -30,19 +26,14 @@ SETTLED, IDLE = 3.0, 20.0  # seconds after the picture is complete: let pass, an
 WARM = 30  # frames before a drag, for compilation and for the measurement of dispatch times
 STEP = 0.004  # motion per frame of a drag, in widths of the window
 SHARES = (50, 95, 99)  # percentiles of frame times
-LAMPS = "lamps"  # the scene of the film
-FILMED = {"width": 320, "height": 320, "samples": 512}
-SHOWN = 2500  # milliseconds for which the film shows each picture: a reader needs them
-MOST_BYTES = 300_000
 
 Script = Iterator[None]
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Measure a drag or a rest, or make the film; returns the exit code."""
+    """Measure a drag, a rest or a complete picture; returns the exit code."""
     parser = argparse.ArgumentParser(prog="python -m bench.window_tour", description=__doc__)
-    parser.add_argument("task", choices=["drag", "rest", "idle", "film"])
-    parser.add_argument("file", nargs="?", type=Path, default=Path("window.webp"))
+    parser.add_argument("task", choices=["drag", "rest", "idle"])
     parser.add_argument("--scene", default="cornell", help="scene to show (default: cornell)")
     parsed = parser.parse_args(arguments)
     has_display = sys.platform != "linux" or {"DISPLAY", "WAYLAND_DISPLAY"} & os.environ.keys()
@@ -55,7 +46,7 @@ def main(arguments: list[str] | None = None) -> int:
             print("\n".join(told(*measure_drag(parsed.scene))))
         elif parsed.task == "idle":
             print("\n".join(idle_text(parsed.scene, *measure_idle(parsed.scene))))
-        elif parsed.task == "rest":
+        else:
             print(
                 "\n".join(
                     rest_text(
@@ -63,8 +54,6 @@ def main(arguments: list[str] | None = None) -> int:
                     )
                 )
             )
-        else:
-            make_film(parsed.file)
     return 0
 
 
@@ -174,33 +163,6 @@ def idle_text(scene: str, share: float, rate: float) -> Iterator[str]:
     yield f"| {scene} | {100 * share:.1f} % | {rate:.1f} |"
 
 
-def make_film(file: Path) -> None:
-    """Film edits of lamps, by stills; raises RuntimeError if the file is too large."""
-    from PIL import Image
-
-    scene, pictures = load(LAMPS), []
-
-    def script(window: Any) -> Script:
-        edits: list[Callable[[], object]] = [lambda: None]
-        for blue, amber in ((0.0, 1.5), (2.5, 0.3)):
-            lit = with_lights(scene, {"blue": blue, "amber": amber})
-            edits.append(partial(window.app.session.edit, lit))
-        for edit in edits:
-            edit()
-            yield from frames_until_done(window)
-            screen = window.app.session.renderer.context.gl.screen
-            size = screen.size
-            pixels = np.frombuffer(screen.read(components=3, alignment=1), np.uint8)
-            pictures.append(Image.fromarray(pixels.reshape(size[1], size[0], 3)[::-1]))
-
-    play(LAMPS, script, **FILMED)
-    first, *rest = pictures
-    options: dict[str, Any] = {"duration": SHOWN, "loop": 0, "quality": 75, "method": 6}
-    first.save(file, save_all=True, append_images=rest, **options)
-    if file.stat().st_size > MOST_BYTES:
-        raise RuntimeError(f"{file} has {file.stat().st_size} bytes, more than {MOST_BYTES}")
-
-
 def frames_until_done(window: Any) -> Script:
     """Yield for each frame until the picture has all its samples and is displayed."""
     for _ in range(5):
@@ -211,8 +173,11 @@ def frames_until_done(window: Any) -> Script:
         yield
 
 
-def play(source: str, script: Callable[[Any], Script], **settings: Any) -> None:
-    """Open a window, continue the script after each frame, and close the window at its end."""
+def play(source: str, script: Callable[[Any], Script], **settings: Any) -> int:
+    """Open a window, continue the script after each frame, and close the window at its end.
+
+    Returns the window's exit code, 0 unless a signal has ended it.
+    """
     from glrt.view.window import Window
 
     scene = load(source)
@@ -221,6 +186,7 @@ def play(source: str, script: Callable[[Any], Script], **settings: Any) -> None:
 
     def with_defaults() -> Script:
         window.app.preferences = Preferences(tour=False)  # the defaults, not those of the user
+        window.recovery.offers = []  # nor the user's lost edits
         yield from script(window)
 
     running = with_defaults()
@@ -230,7 +196,7 @@ def play(source: str, script: Callable[[Any], Script], **settings: Any) -> None:
             window.params.app_shall_exit = True
 
     window.params.callbacks.after_swap = go_on
-    window.run()
+    return window.run()
 
 
 if __name__ == "__main__":

@@ -11,4 +11,5 @@ Modules, each importing only what stands above it:
 - threads: parts of a computation in several threads
 - stages: stages of long work, reported to who waits for it
 - memo: cache of results by the identity of the arguments
+- same_rows: whether arrays hold the same bits
 """

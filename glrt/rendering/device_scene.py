@@ -8,6 +8,7 @@ import moderngl
 import numpy as np
 
 from glrt.core.errors import RenderError, SceneError
+from glrt.core.same_rows import same_rows
 from glrt.gpu.context import Context
 from glrt.gpu.glsl import Source
 from glrt.gpu.program import Images, Resource
@@ -209,11 +210,11 @@ class DeviceScene:
     def _kept_for(self, arrays: Arrays, tree: SceneTree | None) -> dict[str, Shared]:
         """Shared resources with equal arrays, by block; slots may differ in the scene's tree."""
         same = {
-            name for name in STILL if name != "Slot" and _equal(arrays[name], self._arrays[name])
+            name for name in STILL if name != "Slot" and same_rows(arrays[name], self._arrays[name])
         }
         if self._has_own_trees_of(tree, len(arrays["Slot"])):
             same.add("Slot")
-        elif _equal(arrays["Slot"], self._arrays["Slot"]):
+        elif same_rows(arrays["Slot"], self._arrays["Slot"]):
             same.add("Slot")
             if SLOTS in self._kept:
                 self._kept[SLOTS].content = arrays["Slot"]
@@ -284,15 +285,3 @@ def _packed(facts: SceneFacts, tree: SceneTree | None, before: DeviceScene | Non
         return before._arrays
     is_same = before and before._scene.objects == facts.scene.objects
     return pack_scene(facts, tree, before._arrays["Node"] if before and is_same else None)
-
-
-def _equal(left: np.ndarray[Any, Any], right: np.ndarray[Any, Any]) -> bool:
-    """Like `same_rows`, without copies, which take 0.1 s for a million triangles."""
-    if left is right or left.shape != right.shape:
-        return left is right
-    return np.array_equal(left.view(np.uint8), right.view(np.uint8))
-
-
-def same_rows(left: np.ndarray[Any, Any], right: np.ndarray[Any, Any]) -> bool:
-    """Whether two arrays hold the same bits."""
-    return left.tobytes() == right.tobytes()

@@ -28,6 +28,7 @@ Modules, each importing only what stands above it:
 - app: state shared by the parts of the window
 - outliner: a list of what the scene holds
 - panels: the panels
+- tabs: the panel of controls, in tabs
 - start: the screen that is shown without a scene
 - bars: bars above and below the picture
 - boxes: boxes over the picture

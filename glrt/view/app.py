@@ -3,6 +3,7 @@
 import time
 from collections.abc import Callable
 from dataclasses import InitVar, dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import Literal
 
@@ -79,7 +80,7 @@ class App(Selection):
     frame_seconds: float = 0.0
     sampling_seconds: float = 0.0  # of the last frame: for edits and samples
     load: LoadMeter = field(init=False)
-    progress: Progress = field(default_factory=Progress)
+    progress: Progress = field(default_factory=partial(Progress, in_thread=True))
     blackness: Blackness = field(default_factory=Blackness)
     unsaved: bool = False  # whether preferences must be written
     awaited: tuple[Action, int] | None = None  # action and index of the key that is being chosen
@@ -277,7 +278,7 @@ class App(Selection):
     def restart(self) -> None:
         """Restart the picture and its figures."""
         self.session.restart()
-        self.progress = Progress()
+        self.progress = Progress(in_thread=True)
 
     def keep(self) -> None:
         """Keep the picture as A, to compare it with later ones."""

@@ -23,7 +23,7 @@ class Slot:
         """Compile nothing yet; the first frames announce that a kernel will be compiled."""
         self.session = Session(state.scene, state.settings, other.context, pipeline=other.pipeline)
         self.picture = Picture(gl)
-        self.progress = Progress()
+        self.progress = Progress(in_thread=True)
         self._shown: object = None
 
     def has_turn(self, other: Session, pairing: Pairing) -> bool:
@@ -79,7 +79,8 @@ class Pair:
     @property
     def is_done(self) -> bool:
         """Whether A needs no more rendering."""
-        return self.slot is None or self.slot.session.is_done
+        slot = self.slot
+        return slot is None or (slot.session.is_done and not slot.progress.is_looking)
 
     def advance(self, seconds: float, count: int) -> bool:
         """Render a frame of A on its turn, and return whether; RenderError without GPU memory."""

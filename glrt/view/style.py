@@ -6,6 +6,12 @@ THEMES = {
     "dark": hello_imgui.ImGuiTheme_.darcula_darker,
     "light": hello_imgui.ImGuiTheme_.light_rounded,
 }
+_HIDE = (  # lists, and titles of boxes: they hide what lies below
+    imgui.Col_.popup_bg,
+    imgui.Col_.title_bg,
+    imgui.Col_.title_bg_active,
+    imgui.Col_.title_bg_collapsed,
+)
 TOOLTIP_AFTER = 0.5  # seconds that the mouse rests on a row
 
 
@@ -27,7 +33,8 @@ class WindowStyle:
         for name, size in self._sizes.items():
             setattr(style, name, size)
         hello_imgui.apply_theme(THEMES[theme])
-        _make_opaque(style, imgui.Col_.popup_bg)
+        for part in _HIDE:
+            style.set_color_(part, opaque(style.color_(part)))
         style.hover_delay_short = TOOLTIP_AFTER
         style.frame_border_size = 1.0  # edges for light boxes on a light ground
         params = hello_imgui.get_runner_params().imgui_window_params
@@ -42,11 +49,6 @@ def _sizes_of(style: imgui.Style) -> dict[str, float | ImVec2]:
     lengths = {name: ImVec2(v.x, v.y) for name, v in values.items() if isinstance(v, ImVec2)}
     numbers = {name: value for name, value in values.items() if isinstance(value, float)}
     return {**lengths, **numbers}
-
-
-def _make_opaque(style: imgui.Style, part: imgui.Col_) -> None:
-    """Make a colour of the style opaque, so that a list hides the text below it."""
-    style.set_color_(part, opaque(style.color_(part)))
 
 
 def opaque(color: ImVec4) -> ImVec4:

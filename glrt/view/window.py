@@ -32,7 +32,6 @@ from glrt.view.palette.box import Palette
 from glrt.view.panels.confirmations import draw_question
 from glrt.view.panels.key_table import draw_key_overlay
 from glrt.view.panels.layout import Shares, window_part
-from glrt.view.panels.panel import draw_panel
 from glrt.view.panels.plots import draw_figures
 from glrt.view.panels.shortcuts import COMMANDS, draw_keys
 from glrt.view.panels.tour import draw_tour
@@ -48,6 +47,7 @@ from glrt.view.state.idle_kernel import IdleKernel
 from glrt.view.state.preferences import load_preferences, preferences_file
 from glrt.view.state.session import Session
 from glrt.view.style import WindowStyle
+from glrt.view.tabs.panel import Panel
 from glrt.view.viewport.picture import Picture
 from glrt.view.viewport.picture_view import PictureView
 from glrt.view.widgets.finder import FINDER
@@ -93,7 +93,7 @@ class Window:
         self._interruption = Interruption()
         self._wait, self._told = EventWait(), tuple[object, ...]()
         self._shares = Shares()
-        self._palette = Palette()
+        self._palette, self._panel = Palette(), Panel()
         self.add_ons = immapp.AddOnsParams(with_implot=True)
         self.params = self._params()
 
@@ -144,7 +144,7 @@ class Window:
         docking.docking_splits = [side, below]
         docking.main_dock_space_node_flags = imgui.DockNodeFlags_.none  # it draws no ground
         docking.dockable_windows = [
-            window_part(PARTS[0], "Side", lambda: draw_panel(self.app)),
+            window_part(PARTS[0], "Side", lambda: self._panel.draw(self.app)),
             window_part(PARTS[1], "Below", lambda: draw_figures(self.app)),
             window_part(PARTS[2], "MainDockSpace", self._draw_picture),
         ]
@@ -176,7 +176,7 @@ class Window:
             rules=self._rules,
             shows_start=not source,
         )
-        self._start = StartScreen(Thumbnails(context.gl))
+        self._start = StartScreen(partial(Thumbnails, context.gl))
         self.app.messages.complain(problem)
         self.app.leave = self._leave
         session.moving.use(Way(preferences.temporal, preferences.predictor))
@@ -224,7 +224,7 @@ class Window:
         now = time.perf_counter()
         self._poll(now)
         is_done = self.app.show.is_done(self.app.session) and self.app.pair.is_done
-        is_done = is_done and not self.app.paths.is_waiting
+        is_done = is_done and not (self.app.paths.is_waiting or self.app.progress.is_looking)
         is_done |= self.app.shows_start
         return is_done and not self._interruption.signal and self._reports(now) == self._told
 

@@ -127,7 +127,7 @@ def test_error_and_forecast_are_those_of_the_picture(opened: Opening, clock: Clo
 def test_a_done_picture_without_an_error_waits_a_few_times_alone(
     opened: Opening, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("glrt.view.state.error_history.look_at", lambda *_: None)
+    monkeypatch.setattr("glrt.view.state.error_history.Reading.look", lambda _: None)
     live = opened(samples=32)
     begun(live)
     waits: list[float | None] = []

@@ -177,8 +177,8 @@ def test_an_import_against_the_order_is_seen_wherever_it_stands() -> None:
     assert upward("glrt.gpu.glsl", ast.parse("from glrt import settings, api")) == {"glrt.api"}
     assert upward("glrt.rendering.film", ast.parse("import glrt")) == {"glrt"}
     assert upward("glrt.rendering.film", ast.parse("from glrt import Scene")) == {"glrt"}
-    inner = ast.parse("from glrt.view.panels import panel")
-    assert upward("glrt.view.state.session", inner) == {"glrt.view.panels.panel"}
+    inner = ast.parse("from glrt.view.tabs import panel")
+    assert upward("glrt.view.state.session", inner) == {"glrt.view.tabs.panel"}
     assert upward("glrt.view.window", inner) == set()
 
 

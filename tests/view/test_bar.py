@@ -7,12 +7,14 @@ from typing import Any
 import pytest
 from imgui_bundle import ImVec2, imgui
 
-from glrt.view.panels.bar import below_bar
-from glrt.view.state.preferences import Preferences
+from glrt.view.state.preferences import Preferences, Tab
+from glrt.view.tabs.bar import below_bar
 from glrt.view.widgets.fields import button
 from glrt.view.widgets.steady_widget import ANCHOR
 
 SIZE = ImVec2(300.0, 200.0)
+TOP = 36.0  # pixels, below the title of the window: in the line of the tabs
+TABS: tuple[Tab, ...] = ("Scene", "Light")
 
 
 class Panel:
@@ -26,11 +28,8 @@ class Panel:
         self.io.backend_flags |= imgui.BackendFlags_.renderer_has_textures.value
         self.io.set_ini_filename("")
         self._context = context
-        history = SimpleNamespace(can_undo=True, can_redo=True)
-        session = SimpleNamespace(paused=False, history=history, problem="")
-        self.undone = 0
         self.app: Any = SimpleNamespace(
-            session=session, preferences=Preferences(), undo=self._undo, undoes="Undo: all"
+            session=SimpleNamespace(problem=""), preferences=Preferences(), prefer=self._prefer
         )
         self.above, self.below = 10, 30
         self.places: dict[str, ImVec2] = {}  # of the upper left corners, on the screen
@@ -40,8 +39,8 @@ class Panel:
         ANCHOR.forget()
         self.frame(2)
 
-    def _undo(self) -> None:
-        self.undone += 1
+    def _prefer(self, preferences: Preferences) -> None:
+        self.app.preferences = preferences
 
     def frame(self, count: int = 1, scroll: float | None = None) -> None:
         for _ in range(count):
@@ -51,7 +50,7 @@ class Panel:
             imgui.begin("Controls")
             if scroll is not None:
                 imgui.set_scroll_y(scroll)
-            with below_bar(self.app):
+            with below_bar(self.app, TABS):
                 for number in range(self.above):
                     self._row(f"above {number}")
                 self._row("used")
@@ -89,6 +88,12 @@ class Panel:
         imgui.destroy_context(self._context)
 
 
+def bar_end_of_panel() -> float:
+    """Where the bar ends, in pixels from the upper edge of the screen and of the panel."""
+    window = imgui.internal.find_window_by_name("Controls")
+    return float(window.deco_outer_size_y1 + window.deco_inner_size_y1)
+
+
 @pytest.fixture
 def panel() -> Iterator[Panel]:
     panel = Panel()
@@ -97,25 +102,38 @@ def panel() -> Iterator[Panel]:
 
 
 @pytest.mark.parametrize("scroll", [0.0, 100.0, 1e6])
-def test_commands_stay_where_they_are_and_rows_end_below_them(panel: Panel, scroll: float) -> None:
-    """A click where undo stands undoes, though a row lies there, too."""
+def test_a_problem_stays_where_it_is_and_rows_end_below_it(panel: Panel, scroll: float) -> None:
+    """A click where its button stands dismisses it, though a row lies there, too."""
+    panel.app.session.problem = "wrong"
+    panel.frame(3)
     top = panel.places["above 0"].y
     panel.frame(3, scroll)
     panel.frame(2)
     assert (panel.scroll > 0) == (scroll > 0)
-    panel.click(70.0, top - 22)
-    assert panel.undone == 1
     for place in list(panel.places.values()):
         if 0 < place.y < top - 12:
             panel.click(200.0, place.y + 8)
     assert panel.pressed == []
-    panel.click(200.0, top + 30)
+    first = min(place.y for place in panel.places.values() if place.y >= top)
+    panel.click(200.0, first + 5)
     assert len(panel.pressed) == 1, "but rows below it are"
+    panel.click(20.0, top - 16)
+    assert panel.app.session.problem == ""
+    assert len(panel.pressed) == 1
+
+
+def test_a_click_on_a_tab_chooses_it(panel: Panel) -> None:
+    panel.frame(2)
+    style = imgui.get_style()
+    names = [imgui.calc_text_size(tab).x + 2 * style.frame_padding.x for tab in TABS]
+    panel.click(style.window_padding.x + names[0] + style.item_spacing.x + 5, TOP)
+    assert panel.app.preferences.tab == "Light"
+    panel.click(style.window_padding.x + 5, TOP)
+    assert panel.app.preferences.tab == "Scene"
 
 
 def test_keys_and_scrolls_know_where_the_bar_ends(panel: Panel) -> None:
-    window = imgui.internal.find_window_by_name("Controls")
-    end = window.deco_outer_size_y1 + window.deco_inner_size_y1
+    end = bar_end_of_panel()
     assert abs(panel.places["above 0"].y - end) < 1
 
 
@@ -170,8 +188,7 @@ def test_a_row_is_not_kept_under_a_bar_that_grows(panel: Panel) -> None:
     assert panel.places["used"].y == before
     panel.app.session.problem = "wrong\n" * 5
     panel.frame(4)
-    window = imgui.internal.find_window_by_name("Controls")
-    end = window.deco_outer_size_y1 + window.deco_inner_size_y1
+    end = bar_end_of_panel()
     assert panel.places["used"].y >= end
 
 
@@ -190,8 +207,11 @@ def test_widgets_of_other_parts_are_not_held(panel: Panel) -> None:
     """The bar's own neither: it has no place among the rows."""
     panel.frame(3, 150.0)
     panel.frame(2)
+    panel.app.session.problem = "wrong"
+    panel.frame(3)
     before = panel.use()
-    panel.click(60.0, 40.0)
+    panel.click(20.0, bar_end_of_panel() - 16)
+    assert panel.app.session.problem == ""
     panel.above = 14
     panel.frame(3)
     assert panel.places["used"].y == before

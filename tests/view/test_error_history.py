@@ -1,6 +1,9 @@
 """The error over time: when it is looked at, and when it will be small enough."""
 
 import math
+from threading import Event
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,7 +14,8 @@ from glrt.gpu.context import Context
 from glrt.image.sources import load
 from glrt.plan.plan import ONE, Weight
 from glrt.view.figure_texts import error_text, forecast
-from glrt.view.state.error_history import EMPTY, GROWTH, PAUSE, Look, Progress, look_at
+from glrt.view.state import error_history
+from glrt.view.state.error_history import EMPTY, GROWTH, PAUSE, Look, Progress, read
 from tests.support.mixed_scene import everything
 from tests.support.renders import rendering
 
@@ -72,6 +76,56 @@ def test_the_history_stays_over_a_relight_and_the_figure_does_not() -> None:
     progress.begin("another", "bright")
     assert progress.relit == progress.drawn == []
     assert progress.limits() == EMPTY
+
+
+class Watched:
+    """A session with a picture of 100 samples, whose figures are ready once `ready` is set."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        self.ready, self.found = Event(), seen(100, 1.0, 0.5)
+        moving = SimpleNamespace(is_shown=lambda *_: False)
+        self.session: Any = SimpleNamespace(
+            renderer=object(), restarts=1, weights="light", moving=moving, rendering=1.0
+        )
+        self.session.settings = SimpleNamespace(samples=1000)
+        self.session.samples, self.session.known_from = 100, 2
+        self.session.is_passing = self.session.is_done = False
+        reading = SimpleNamespace(look=self._look)
+        monkeypatch.setattr(error_history, "read", lambda *_: reading)
+
+    def _look(self) -> Look:
+        assert self.ready.wait(10)
+        return self.found
+
+
+def test_a_frame_does_not_wait_for_figures(monkeypatch: pytest.MonkeyPatch) -> None:
+    watched, progress = Watched(monkeypatch), Progress(in_thread=True)
+    for frame in range(3):
+        assert progress.follow(watched.session, 10.0 + frame) is None
+        assert progress.is_looking
+    watched.ready.set()
+    assert progress._awaited
+    progress._awaited.result(60)
+    assert progress.follow(watched.session, 20.0) is watched.found
+    assert progress.looks == [watched.found]
+    assert not progress.is_looking
+
+
+@pytest.mark.parametrize(("name", "value"), [("restarts", 2), ("weights", "dim")])
+def test_figures_of_a_picture_that_is_gone_are_dropped(
+    monkeypatch: pytest.MonkeyPatch, name: str, value: object
+) -> None:
+    watched, progress = Watched(monkeypatch), Progress(in_thread=True)
+    progress.follow(watched.session, 10.0)
+    late = progress._awaited
+    assert late
+    setattr(watched.session, name, value)
+    watched.session.samples = 1  # too few for a look
+    watched.ready.set()
+    late.result(60)
+    assert progress.follow(watched.session, 20.0) is None
+    assert progress.looks == []
+    assert not progress.is_looking
 
 
 def test_the_forecast_is_that_of_noise() -> None:
@@ -153,10 +207,10 @@ def test_a_look_reports_what_the_picture_tells(context: Context) -> None:
     with rendering(everything(), context) as renderer:
         renderer.render(1)
         with context.gl:
-            assert look_at(renderer, (ONE,), 0.1) is None
+            assert read(renderer, (ONE,), 0.1).look() is None
         image = renderer.render(8).image()
         with context.gl:
-            look = look_at(renderer, weights, 0.5)
+            look = read(renderer, weights, 0.5).look()
     assert look is not None
     assert (look.samples, look.seconds, look.nonfinite) == (8, 0.5, 0)
     assert look.error == pytest.approx(image.error), "light that is twice as much is as sure"
@@ -170,7 +224,7 @@ def test_the_rim_of_a_small_sun_is_not_believed(context: Context) -> None:
     with rendering(scene, context, **size) as renderer:
         renderer.render(64)
         with context.gl:
-            look = look_at(renderer, (ONE,), 1.0)
+            look = read(renderer, (ONE,), 1.0).look()
     assert look
     assert look.error < 0.03
     assert "not to be believed" in error_text(look)
@@ -183,7 +237,7 @@ def test_an_error_that_is_not_to_be_believed_is_reported_so(context: Context, is
     with rendering(scene, context, **size) as renderer:
         renderer.render(64)
         with context.gl:
-            known, relit = (look_at(renderer, (weight,), 1.0) for weight in (ONE, HALF))
+            known, relit = (read(renderer, (weight,), 1.0).look() for weight in (ONE, HALF))
     assert known
     assert known.is_doubtful is is_rim
     assert ("not to be believed" in error_text(known)) is is_rim

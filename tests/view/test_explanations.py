@@ -5,14 +5,16 @@ import pytest
 from glrt.phong import Phong
 from glrt.scene.materials.metal import Metal
 from glrt.view.controls import Control, controls_of
-from glrt.view.panels import lights, panel
+from glrt.view.panels import lights
 from glrt.view.state import costs
 from glrt.view.state.explanations import EXPLANATIONS, explanation_of
+from glrt.view.tabs.kept import SETTINGS
+from glrt.view.tabs.paths import PER_UPDATE
 
 
 @pytest.mark.parametrize("name", ["method", "sampler", "roulette", "bounces", "samples"])
 def test_controls_of_paths_explain_themselves(name: str) -> None:
-    text = explanation_of(panel.SETTINGS[name])
+    text = explanation_of(SETTINGS[name])
     assert 2 <= text.count(". ") + text.count(": ") + 1 <= 8
     assert len(text) > 100
 
@@ -25,10 +27,10 @@ def test_lamps_explain_themselves_under_any_name(control: Control) -> None:
 
 
 def test_what_needs_no_explanation_has_none() -> None:
-    assert explanation_of(panel.SETTINGS["width"]) == ""
+    assert explanation_of(SETTINGS["width"]) == ""
 
 
 def test_each_explanation_is_of_a_control() -> None:
-    named = {*panel.SETTINGS, "intensity", "emission", "ior", panel.PER_UPDATE.name}
+    named = {*SETTINGS, "intensity", "emission", "ior", PER_UPDATE.name}
     named |= {control.name for model in (Metal, Phong) for control in controls_of(model)}
     assert EXPLANATIONS.keys() <= named

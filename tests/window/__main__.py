@@ -56,7 +56,7 @@ def main() -> None:
         hand = Hand(shown)
 
         def work(ctx: imgui.test_engine.TestContext) -> None:
-            hand.ctx = ctx
+            hand.hold(ctx)
             engine = imgui.test_engine.get_io(hello_imgui.get_imgui_test_engine())
             engine.config_watchdog_warning = engine.config_watchdog_kill_test = 1e6  # seconds
             for found in findings(hand):

@@ -4,13 +4,16 @@ from typing import Any
 
 from imgui_bundle import imgui
 
+from glrt.view.tabs.sections import TABS
 from tests.window.check_layout import resized
 from tests.window.check_newcomer import SMALLEST
+from tests.window.check_toolbar import sized
 from tests.window.gestures import ball, press, retype, scroll_to
 from tests.window.hand import Hand, check
 
 PANEL = "//Controls"
-ROW = "intensity##lamp"  # the first
+ROW = "bounces"  # the first of its tab
+PROBLEM = "Something went wrong."
 
 
 def panel_of(hand: Hand) -> Any:
@@ -29,6 +32,12 @@ def scrolled_down(hand: Hand) -> float:
     return float(panel_of(hand).scroll.y)
 
 
+def size_of(hand: Hand) -> tuple[int, int]:
+    """Width and height of the window, in pixels."""
+    width, height = hand.there(lambda: tuple(imgui.get_io().display_size))
+    return int(width), int(height)
+
+
 def refuse(hand: Hand, problem: str) -> None:
     """Make the window show a problem."""
     hand.there(lambda: setattr(hand.session, "problem", problem))
@@ -36,53 +45,54 @@ def refuse(hand: Hand, problem: str) -> None:
 
 
 @check
-def commands_stay_in_sight_while_the_panel_scrolls(hand: Hand) -> None:
-    session, before = hand.session, hand.session.settings
-    hand.there(lambda: session.edit(seed=before.seed + 1))
-    hand.ctx.yield_(2)
-    place = place_of(hand, "undo")
-    scroll = scrolled_down(hand)
-    assert scroll > 0
-    assert place_of(hand, "undo") == place
-    hand.ctx.item_click(f"{PANEL}/undo")
-    assert session.settings == before
-    hand.ctx.item_click(f"{PANEL}/pause")
-    assert session.paused
-    hand.ctx.item_click(f"{PANEL}/go on")
-    assert panel_of(hand).scroll.y == scroll
+def a_problem_stays_in_sight_while_the_panel_scrolls(hand: Hand) -> None:
+    with sized(hand, SMALLEST):
+        hand.turn_to("Render")
+        refuse(hand, PROBLEM)
+        place = place_of(hand, "dismiss")
+        scroll = scrolled_down(hand)
+        assert scroll > 0
+        assert place_of(hand, "dismiss") == place
+        hand.ctx.item_click(f"{PANEL}/dismiss")
+        assert not hand.session.problem
+        assert panel_of(hand).scroll.y > 0
 
 
 @check
 def rows_end_below_the_bar(hand: Hand) -> None:
     """A row scrolled below the bar is neither seen nor clicked through it."""
-    ctx, panel = hand.ctx, panel_of(hand)
+    ctx, panel, usual = hand.ctx, panel_of(hand), size_of(hand)
+    resized(hand, SMALLEST)
+    hand.turn_to("Render")
+    refuse(hand, PROBLEM)
     ctx.scroll_to_top(PANEL)
     ctx.yield_(2)
-    on = place_of(hand, ROW) - place_of(hand, "undo")
+    on = place_of(hand, ROW) - place_of(hand, "dismiss")
     hand.there(lambda: imgui.internal.set_scroll_y(panel, on))
     ctx.yield_(3)
-    row, button = (ctx.item_info(f"{PANEL}/{name}") for name in (ROW, "undo"))
+    row, button = (ctx.item_info(f"{PANEL}/{name}") for name in (ROW, "dismiss"))
     assert abs(row.rect_full.min.y - button.rect_full.min.y) < 2, "it lies where the button is"
-    before = hand.session.scene
+    before = hand.session.state
     ctx.mouse_move_to_pos((row.rect_full.max.x - 8, row.rect_full.get_center().y))
     ctx.mouse_click(0)
     ctx.yield_(3)
-    assert hand.session.scene == before
-    ctx.scroll_to_top(PANEL)
-    ctx.yield_(2)
+    assert hand.session.state == before
+    ctx.item_click(f"{PANEL}/dismiss")
+    resized(hand, usual)
 
 
 @check
 def keys_that_move_in_the_panel_go_to_no_row_under_the_bar(hand: Hand) -> None:
     ctx, panel = hand.ctx, panel_of(hand)
-    usual = tuple(map(int, hand.there(lambda: tuple(imgui.get_io().display_size))))
+    usual = size_of(hand)
     resized(hand, SMALLEST)  # where most rows are scrolled away
     ctx.scroll_to_top(PANEL)
     ctx.yield_(3)
-    end = place_of(hand, "Light") - 1
-    buttons = [panel.get_id(name) for name in ("pause", "undo", "redo")]
+    refuse(hand, PROBLEM)
+    end = place_of(hand, "Paths") - 1
+    buttons = [panel.get_id(name) for name in ("dismiss", *(f"{tab}##tab" for tab in TABS))]
     scrolled_down(hand)
-    ctx.item_click(f"{PANEL}/keep this picture")
+    ctx.item_click(f"{PANEL}/restart")
     press(hand, imgui.Key.f6)
     try:
         for _ in range(25):
@@ -92,7 +102,8 @@ def keys_that_move_in_the_panel_go_to_no_row_under_the_bar(hand: Hand) -> None:
             assert here in buttons or row.rect_full.min.y >= end
     finally:
         press(hand, imgui.Key.escape)
-        resized(hand, (usual[0], usual[1]))
+        refuse(hand, "")
+        resized(hand, usual)
 
 
 @check
@@ -123,35 +134,6 @@ def a_long_problem_leaves_room_for_the_rows(hand: Hand) -> None:
 
 
 @check
-def a_row_stays_where_it_is_though_there_is_nothing_to_scroll(hand: Hand) -> None:
-    """A lamp becomes matte: the rows under Light go, and the panel is at its top."""
-    app, ctx = hand.window.app, hand.ctx
-    closed = ("Paths", "Samples", "Display", "Camera", "Scene")
-    number, shape = ball(hand)
-    app.selected = number
-    ctx.yield_(2)
-    retype(hand, shape.material, "light")
-    hand.settle()
-    for title in closed:
-        ctx.item_close(f"{PANEL}/{title}")
-    ctx.scroll_to_top(PANEL)
-    ctx.yield_(3)
-    first = place_of(hand, "Light")
-    row = f"type##material {shape.material}"
-    before = place_of(hand, row)
-    retype(hand, shape.material, "lambertian")
-    ctx.yield_(4)
-    assert abs(place_of(hand, row) - before) < 2
-    assert place_of(hand, "Light") > first + 10, "room is left above"
-    ctx.mouse_move("//Picture/picture")
-    ctx.yield_(4)
-    assert abs(place_of(hand, "Light") - first) < 2, "until the mouse is elsewhere"
-    for title in closed:
-        ctx.item_open(f"{PANEL}/{title}")
-    app.selected = None
-
-
-@check
 def a_colour_stays_where_it_is_after_it_was_edited(hand: Hand) -> None:
     """Three numbers and a patch are one row to the hand."""
     app, ctx, session = hand.window.app, hand.ctx, hand.session
@@ -163,7 +145,7 @@ def a_colour_stays_where_it_is_after_it_was_edited(hand: Hand) -> None:
     ctx.item_input_value(part, 0.25)
     ctx.yield_(3)
     before = place_of(hand, part)
-    refuse(hand, "Something went wrong.")
+    refuse(hand, PROBLEM)
     assert abs(place_of(hand, part) - before) < 2
     ctx.item_click(f"{PANEL}/dismiss")
     hand.there(session.undo)
@@ -184,6 +166,7 @@ def the_panel_goes_to_the_paths_of_a_pixel_whatever_was_used_before(hand: Hand) 
     ctx.mouse_click(0)
     hand.until(lambda: app.paths.found is not None)
     ctx.yield_(4)
-    first = place_of(hand, "choose a pixel") - place_of(hand, "undo")
-    assert 0 < first < 60, "below the bar"
+    assert app.preferences.tab == "Inspect"
+    first = place_of(hand, "choose a pixel") - panel_of(hand).pos.y
+    assert 0 < first < panel_of(hand).size.y
     app.selected = None

@@ -38,10 +38,10 @@ def a_drag_is_one_step_to_undo(hand: Hand) -> None:
     before = hand.session.scene.camera
     drag(hand, 50, 30)
     after = hand.session.scene.camera
-    hand.ctx.item_click("//Controls/undo")
+    hand.ctx.item_click("//Picture/###undo")
     hand.settle()
     assert hand.session.scene.camera == before
-    hand.ctx.item_click("//Controls/redo")
+    hand.ctx.item_click("//Picture/###redo")
     hand.settle()
     assert hand.session.scene.camera == after
 

@@ -7,8 +7,10 @@ from imgui_bundle import imgui
 
 from glrt.settings import Cost, Settings
 from glrt.view.controls import Control
-from glrt.view.panels import background, lights, panel, sun
+from glrt.view.panels import background, lights, sun
 from glrt.view.state import costs
+from glrt.view.tabs import camera, kept, paths
+from glrt.view.tabs.sections import TABS
 from glrt.view.widgets import fields
 from tests.window.check_preferences import CHOICES
 from tests.window.gestures import click_twice, move, to_label
@@ -18,27 +20,27 @@ from tests.window.hand import Hand, check
 MOVES: dict[str, tuple[Control, Any]] = {
     "intensity##lamp": (costs.INTENSITY, 3.0),
     "emission##lamp/##emission/$$0": (lights.EMISSION.costing(Cost.RELIGHT), 2.0),
-    "bounces": (panel.SETTINGS["bounces"], 1),
-    "bounces live": (panel.LIVE, None),
-    "method/nee": (panel.SETTINGS["method"], None),
-    "sampler/independent": (panel.SETTINGS["sampler"], None),
-    "seed": (panel.SETTINGS["seed"], 7),
-    "caustics/on": (panel.SETTINGS["caustics"], None),
-    "roulette": (panel.SETTINGS["roulette"], None),
-    "samples": (panel.SETTINGS["samples"], 5000),
-    "exposure": (panel.SETTINGS["exposure"], 2.0),
-    "tonemap/agx": (panel.SETTINGS["tonemap"], None),
-    "fov": (panel.CAMERA["fov"], 20.0),
-    "focus distance": (panel.CAMERA["focus_distance"], 2.0),
-    "defocus angle": (panel.CAMERA["defocus_angle"], 3.0),
-    "position/$$2": (panel.CAMERA["position"], 3.0),
-    "look at/$$0": (panel.CAMERA["look_at"], 0.3),
+    "bounces": (kept.SETTINGS["bounces"], 1),
+    "bounces live": (paths.LIVE, None),
+    "method/nee": (kept.SETTINGS["method"], None),
+    "sampler/independent": (kept.SETTINGS["sampler"], None),
+    "seed": (kept.SETTINGS["seed"], 7),
+    "caustics/on": (kept.SETTINGS["caustics"], None),
+    "roulette": (kept.SETTINGS["roulette"], None),
+    "samples": (kept.SETTINGS["samples"], 5000),
+    "exposure": (kept.SETTINGS["exposure"], 2.0),
+    "tonemap/agx": (kept.SETTINGS["tonemap"], None),
+    "fov": (camera.CAMERA["fov"], 20.0),
+    "focus distance": (camera.CAMERA["focus_distance"], 2.0),
+    "defocus angle": (camera.CAMERA["defocus_angle"], 3.0),
+    "position/$$2": (camera.CAMERA["position"], 3.0),
+    "look at/$$0": (camera.CAMERA["look_at"], 0.3),
     "color##background/##color/$$2": (background.BACKGROUND["color"], 0.5),
     "gradient": (background.GRADIENT, None),
     "clear sky": (background.CLEAR, None),
     "sun": (sun.SHINES, None),
-    "width": (panel.SETTINGS["width"], 30),
-    "height": (panel.SETTINGS["height"], 30),
+    "width": (kept.SETTINGS["width"], 30),
+    "height": (kept.SETTINGS["height"], 30),
 }
 UNSEEN = (
     "samples",
@@ -46,22 +48,12 @@ UNSEEN = (
     "bounces live",
     "gradient",
 )  # no other picture is shown; of the second, without a lens
-SECTIONS = (
-    "Background",
-    "Sun",
-    "Frame",
-    "Files",
-    "Mouse and keys",
-    "Window",
-)  # closed at the start
 
 
 @check
 def every_control_costs_what_it_says(hand: Hand) -> None:
     order = list(Cost)
     hand.ctx.set_ref("Controls")
-    for header in ("Background", "Sun", "Frame"):
-        hand.ctx.item_open(header)
     for reference, (control, value) in MOVES.items():
         hand.begin()
         session = hand.session
@@ -80,8 +72,6 @@ def every_control_costs_what_it_says(hand: Hand) -> None:
         if reference not in UNSEEN:
             changed = after.shape != before.shape or (after != before).mean() > 0.05
             assert changed, reference
-    for header in ("Background", "Sun", "Frame"):
-        hand.ctx.item_close(header)
 
 
 @check
@@ -94,17 +84,13 @@ def every_control_of_the_panel_is_moved_here(hand: Hand) -> None:
         drawn.add(f"{control.label}##{name}" if name else control.label)
         return inner(control, value, name)
 
-    hand.ctx.set_ref("Controls")
-    drawing: list[Any] = [fields, panel, lights, background, sun]
+    drawing: list[Any] = [fields, paths, lights, background, sun]
     for module in drawing:
         module.edited = seen
-    for section in SECTIONS:
-        hand.ctx.item_open(section)
-    hand.ctx.yield_(2)
+    for tab in TABS:
+        hand.turn_to(tab)
     for module in drawing:
         module.edited = inner
-    for section in SECTIONS:
-        hand.ctx.item_close(section)
     moved = {reference.partition("/")[0] for reference in MOVES}
     moved |= {f"{label}##preference" for label in CHOICES}
     assert drawn == moved

@@ -78,7 +78,7 @@ def an_image_dropped_on_an_object_becomes_its_color(hand: Hand) -> None:
     hand.there(app.undo)
     assert hand.session.scene is before
     app.select(None)
-    hand.ctx.mouse_move("//Controls/pause")
+    hand.ctx.mouse_move("//Controls/samples")
     assert dropped(hand, file) == 0
     hand.until(lambda: "where no object is" in hand.session.problem)
     assert hand.session.scene is before

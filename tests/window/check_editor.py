@@ -9,6 +9,8 @@ from imgui_bundle import imgui
 from glrt.view.edits.new_objects import ADDED
 from glrt.view.panels.viewport import _OUTLINE
 from tests.support.gltf_files import textured_square
+from tests.window.check_newcomer import SMALLEST
+from tests.window.check_toolbar import sized
 from tests.window.gestures import (
     add,
     answer,
@@ -130,7 +132,7 @@ def names_are_typed(hand: Hand) -> None:
 
 @check
 def a_widget_stays_where_it_is_when_rows_come_and_go(hand: Hand) -> None:
-    """A type that shines adds rows far above, under Light; and one that has fewer values."""
+    """Types have more values, or fewer, and one of them is that of a lamp."""
     session, ctx = hand.session, hand.ctx
     _, shape = ball(hand)
     click(hand, shape.center)
@@ -147,23 +149,23 @@ def a_widget_stays_where_it_is_when_rows_come_and_go(hand: Hand) -> None:
 
 @check
 def a_part_that_is_closed_stays_under_the_mouse_and_the_panel_scrolls_freely(hand: Hand) -> None:
-    ctx, title = hand.ctx, "//Controls/Compare"
-    ctx.item_open(title)
-    ctx.scroll_to_bottom("//Controls")
-    ctx.yield_(3)
-    place = ctx.item_info(title).rect_full.min.y
-    ctx.item_click(title)
-    ctx.yield_(3)
-    assert abs(ctx.item_info(title).rect_full.min.y - place) < 2
-    panel: Any = ctx.window_info("//Controls").window
-    scroll = panel.scroll.y
-    ctx.mouse_wheel_y(3.0)
-    ctx.yield_(3)
-    assert panel.scroll.y < scroll
-    ctx.scroll_to_top("//Controls")
-    ctx.yield_(2)
-    assert panel.scroll.y == 0
-    ctx.item_open(title)  # as other checks find it
+    ctx, title = hand.ctx, "//Controls/Frame"
+    with sized(hand, SMALLEST):
+        ctx.item_open(title)
+        ctx.scroll_to_bottom("//Controls")
+        ctx.yield_(3)
+        place = ctx.item_info(title).rect_full.min.y
+        ctx.item_click(title)
+        ctx.yield_(3)
+        assert abs(ctx.item_info(title).rect_full.min.y - place) < 2
+        panel: Any = ctx.window_info("//Controls").window
+        scroll = panel.scroll.y
+        ctx.mouse_wheel_y(3.0)
+        ctx.yield_(3)
+        assert panel.scroll.y < scroll
+        ctx.scroll_to_top("//Controls")
+        ctx.yield_(2)
+        assert panel.scroll.y == 0
 
 
 @check

@@ -3,6 +3,7 @@
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 
 from imgui_bundle import imgui
@@ -47,6 +48,21 @@ def export(hand: Hand) -> None:
     exports = hand.window.app.exports
     hand.ctx.item_click(f"{BOX}/export")
     hand.until(lambda: exports.job is None and bool(exports.told))
+
+
+@check
+def the_title_of_the_box_hides_the_picture_below(hand: Hand) -> None:
+    with box(hand):
+        window = hand.ctx.window_info(BOX).window
+        assert window
+        row, (left, width) = int(window.pos.y + 3), (window.pos.x, window.size.x)
+        across = slice(int(left + 0.4 * width), int(left + 0.9 * width))  # right of the words
+        shades = []
+        for exposure in (-8.0, 8.0):
+            hand.there(partial(hand.session.edit, exposure=exposure))
+            hand.settle()
+            shades.append(hand.screen()[row, across].astype(int))
+        assert abs(shades[0] - shades[1]).max() == 0
 
 
 @check

@@ -39,7 +39,7 @@ def the_values_of_a_pixel_are_those_of_the_saved_picture(hand: Hand) -> None:
 def a_relit_picture_reports_the_values_that_are_shown(hand: Hand) -> None:
     app, session = hand.window.app, hand.session
     hand.until(lambda: session.samples >= session.known_from)
-    hand.ctx.item_open("//Controls/Light")
+    hand.ctx.item_open("//Controls/Lamps")
     hand.ctx.item_input_value("//Controls/intensity##lamp", 3.0)
     session.paused = True
     hand.ctx.yield_(3)
@@ -103,7 +103,7 @@ def the_panel_inspects(hand: Hand) -> None:
     app, ctx = hand.window.app, hand.ctx
     hand.until(lambda: hand.session.samples >= hand.session.known_from)
     ctx.set_ref("Controls")
-    ctx.item_open("Inspect")
+    ctx.item_open("Pixels")
     ctx.item_click("4:1")
     assert app.zoom.scale == 4.0
     ctx.item_click("fit")
@@ -116,14 +116,14 @@ def the_panel_inspects(hand: Hand) -> None:
     ctx.yield_(2)
     press(hand, imgui.Key.i)
     assert not app.inspects
-    ctx.item_close("Inspect")
+    ctx.item_close("Pixels")
 
 
 @check
 def what_lies_below_the_histogram_stays_while_there_is_none(hand: Hand) -> None:
     """A click there would meet another row where the first look at a picture came between."""
     app, ctx = hand.window.app, hand.ctx
-    ctx.item_open("//Controls/Inspect")
+    ctx.item_open("//Controls/Pixels")
     hand.until(lambda: app.progress.last is not None)
     ctx.yield_(2)
     below = ctx.item_info("//Controls/Paths of a pixel").rect_full.min.y
@@ -131,7 +131,7 @@ def what_lies_below_the_histogram_stays_while_there_is_none(hand: Hand) -> None:
     ctx.yield_(2)
     assert app.progress.last is None
     assert ctx.item_info("//Controls/Paths of a pixel").rect_full.min.y == below
-    ctx.item_close("//Controls/Inspect")
+    ctx.item_close("//Controls/Pixels")
 
 
 @check
@@ -139,14 +139,14 @@ def rows_below_the_histogram_stay_while_it_is_scrolled_out(hand: Hand) -> None:
     app, ctx = hand.window.app, hand.ctx
     usual = tuple(map(int, hand.there(lambda: tuple(imgui.get_io().display_size))))
     resized(hand, SMALLEST)
-    ctx.item_open("//Controls/Inspect")
+    ctx.item_open("//Controls/Pixels")
     hand.until(lambda: app.progress.last is not None)
     seen = set()
     for y in range(0, 1000, 200):
         hand.there(partial(scroll, float(y)))
         ctx.yield_(3)
         seen.add(hand.there(height_of_rows))
-    ctx.item_close("//Controls/Inspect")
+    ctx.item_close("//Controls/Pixels")
     resized(hand, (usual[0], usual[1]))
     assert len(seen) == 1, seen
 

@@ -75,8 +75,9 @@ def layout(hand: Hand) -> dict[str, tuple[float, ...]]:
 @check
 def the_screen_is_filled_and_nothing_is_lost_on_the_way_back(hand: Hand) -> None:
     native, app = hand.window._native, hand.window.app
-    hand.ctx.item_open("//Controls/Inspect")
-    hand.ctx.scroll_to_item_y("//Controls/Camera")
+    hand.turn_to("Window")
+    panel: Any = hand.ctx.window_info("//Controls").window
+    hand.there(lambda: imgui.internal.set_scroll_y(panel, 100.0))
     app.selected = 1
     hand.ctx.yield_(6)
     before, camera = layout(hand), hand.session.scene.camera
@@ -96,7 +97,6 @@ def the_screen_is_filled_and_nothing_is_lost_on_the_way_back(hand: Hand) -> None
     assert layout(hand) == before
     assert (app.selected, hand.session.scene.camera) == (1, camera)
     assert hand.session.restarts == restarts
-    hand.ctx.item_close("//Controls/Inspect")
     app.selected = None
 
 

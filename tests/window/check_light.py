@@ -8,7 +8,7 @@ from glrt.image.sources import load
 from glrt.rendering.renderer import Renderer
 from glrt.settings import Cost
 from glrt.view.controls import Control
-from glrt.view.panels import lights, panel
+from glrt.view.panels import lights
 from glrt.view.widgets import fields
 from tests.window.gestures import move, reopen
 from tests.window.hand import SMALL, Hand, check
@@ -111,9 +111,8 @@ def a_row_of_the_panel_reports_its_lamp(hand: Hand) -> None:
     hand.there(lambda: hand.session.edit(load("lamps"), **SMALL))
     hand.settle()
     with pytest.MonkeyPatch.context() as patch:
-        for part in (panel, lights):
-            patch.setattr(part, "edited", seen)
-        hand.until(lambda: labels.count("method") + labels.count("bounces live") > 0)
+        patch.setattr(lights, "edited", seen)
+        hand.turn_to("Light")
     lamps = hand.there(lambda: [label for label in labels if "intensity" in label])
     assert {"amber intensity", "blue intensity", "rose intensity"} <= set(lamps)
     assert "emission" not in labels

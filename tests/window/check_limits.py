@@ -117,7 +117,7 @@ def whatever_is_typed_into_a_field_ends_nothing(hand: Hand) -> None:
     ctx, (number, shape) = hand.ctx, ball(hand)
     hand.window.app.selected = number
     ctx.set_ref("Controls")
-    ctx.item_open("Window")
+    ctx.item_open("Preferences")
     for label, *texts in (
         ("seed", "9" * 5000, "-1", "1/0"),
         ("samples", "9" * 50),
@@ -133,7 +133,8 @@ def whatever_is_typed_into_a_field_ends_nothing(hand: Hand) -> None:
     ):
         for text in texts:
             ctx.item_input_value(label, text)
-    ctx.item_close("Window")
+            ctx.yield_(4)  # a problem moves the rows
+    ctx.item_close("Preferences")
     hand.begin()
     goes_on(hand)
     hand.window.app.selected = None

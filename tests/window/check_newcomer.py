@@ -9,16 +9,18 @@ from imgui_bundle import imgui
 
 from glrt.view import file_dialogs
 from glrt.view.controls import replaced
+from glrt.view.tabs.sections import TABS
 from glrt.view.widgets import fields
 from tests.window.check_layout import resized
+from tests.window.check_toolbar import sized
 from tests.window.gestures import add, ball, click, press, reported_lines
 from tests.window.hand import Hand, check
 
 CTRL, SHIFT = imgui.Key.mod_ctrl.value, imgui.Key.mod_shift.value
 SMALLEST = (640, 400)
-CLOSED = ("Inspect", "Background", "Sun", "Frame", "Files", "Mouse and keys")  # parts, at the start
 ROWS = (
-    *("pause", "undo", "redo", "restart", "home", "fit", "16:1"),
+    *(f"{tab}##tab" for tab in TABS),
+    *("restart", "home", "fit", "16:1"),
     *("object", "add", "delete", "focus here", "make unique", "new##material"),
     *("keep this picture", "forget it", "swap A and B", "side by side", "wipe"),
     *("show the difference", "scene", "recent", "##open", "##save", "##scene file"),
@@ -44,17 +46,6 @@ def undo_and_redo_report_what_they_change(hand: Hand) -> None:
 
 
 @check
-def the_button_that_undoes_reports_what(hand: Hand) -> None:
-    hand.there(lambda: hand.session.edit(seed=hand.session.settings.seed + 1))
-    tips: list[str] = []
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("glrt.view.panels.bar.tip", tips.append)
-        hand.ctx.mouse_move("//Controls/undo")
-        hand.until(lambda: bool(tips))
-    assert tips[0] == "Undo: seed (Ctrl+Z)"
-
-
-@check
 def a_copy_is_seen_next_to_its_original(hand: Hand) -> None:
     app, (number, shape) = hand.window.app, ball(hand)
     click(hand, shape.center)
@@ -68,26 +59,26 @@ def a_copy_is_seen_next_to_its_original(hand: Hand) -> None:
     app.selected = None
 
 
+def unfold(hand: Hand, title: str) -> None:
+    """Fold a part, go to the end of its tab, and unfold it there."""
+    hand.ctx.item_close(f"//Controls/{title}")
+    hand.ctx.scroll_to_bottom("//Controls")
+    hand.ctx.yield_(3)
+    hand.ctx.item_open(f"//Controls/{title}")
+    hand.ctx.yield_(4)
+
+
 @check
 def a_part_that_is_unfolded_is_scrolled_into_sight(hand: Hand) -> None:
     ctx = hand.ctx
     panel: Any = ctx.window_info("//Controls").window
-    for title in ("Window", "Mouse and keys"):
-        ctx.item_close(f"//Controls/{title}")
-    ctx.scroll_to_bottom("//Controls")
-    ctx.yield_(3)
-    ctx.item_open("//Controls/Window")
-    ctx.yield_(4)
-    bottom = panel.pos.y + panel.size.y
-    info = ctx.item_info("//Controls/tour##preference")
-    assert info.rect_full.max.y < bottom, "its end, since it is short"
-    ctx.item_close("//Controls/Window")
-    ctx.yield_(3)
-    ctx.item_open("//Controls/Mouse and keys")
-    ctx.yield_(4)
-    info = ctx.item_info("//Controls/Mouse and keys")
-    assert panel.pos.y <= info.rect_full.min.y < panel.pos.y + 0.25 * panel.size.y, "its title"
-    ctx.item_close("//Controls/Mouse and keys")
+    with sized(hand, SMALLEST):
+        unfold(hand, "Frame")
+        info = ctx.item_info("//Controls/height")
+        assert info.rect_full.max.y < panel.pos.y + panel.size.y, "its end, since it is short"
+        unfold(hand, "Mouse and keys")
+        info = ctx.item_info("//Controls/Mouse and keys")
+        assert panel.pos.y <= info.rect_full.min.y < panel.pos.y + 0.35 * panel.size.y, "its title"
 
 
 @check
@@ -171,9 +162,6 @@ def rows_of_a_narrow_panel_are_not_cut(hand: Hand) -> None:
     app.select(number)
     resized(hand, SMALLEST)
     ctx.yield_(3)
-    for title in CLOSED:
-        ctx.item_open(f"//Controls/{title}")
-        ctx.yield_(3)
     right = hand.there(lambda: imgui.internal.find_window_by_name("Controls").inner_clip_rect.max.x)
     try:
         for row in (*ROWS, f"name##shape {number}", f"type##material {shape.material}"):
@@ -184,8 +172,6 @@ def rows_of_a_narrow_panel_are_not_cut(hand: Hand) -> None:
             if is_typed:
                 assert box.max.x - box.min.x > 5 * imgui.get_font_size(), row
     finally:
-        for title in CLOSED:
-            ctx.item_close(f"//Controls/{title}")
         resized(hand, (usual[0], usual[1]))
         app.selected = None
 

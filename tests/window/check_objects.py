@@ -115,7 +115,7 @@ def the_gizmo_moves_what_is_selected_without_compiling(hand: Hand) -> None:
     assert hand.session.scene.camera == camera
     assert hand.session.restarts > restarts
     assert hand.session.last_cost is Cost.RESTART
-    hand.ctx.item_click("//Controls/undo")
+    hand.ctx.item_click("//Picture/###undo")
     hand.settle()
     assert hand.session.scene.objects[number] == shape
     hand.window.app.selected = None
@@ -205,7 +205,7 @@ def what_edits_of_an_object_cost_stands_next_to_them(hand: Hand) -> None:
         patch.setattr(objects, "edited", seen)
         patch.setattr(objects, "tag", marks.append)
         hand.window.app.selected = number
-        hand.ctx.yield_(2)
+        hand.turn_to("Scene")
     words = dict.fromkeys(("material", "ready-made", "type"), Cost.RECOMPILE)
     assert costs == {**words, "handles": Cost.RESTART}
     assert set(marks) == {Cost.RECOMPILE}  # of new objects

@@ -30,7 +30,7 @@ def listed() -> list[tuple[str, int]]:
 @check
 def a_row_selects_its_object_and_a_click_in_the_picture_its_row(hand: Hand) -> None:
     app, (number, shape) = hand.window.app, ball(hand)
-    hand.ctx.scroll_to_item_y("//Controls/Scene")
+    hand.ctx.scroll_to_item_y("//Controls/Contents")
     restarts = hand.session.restarts
     for other in (3, 0):
         in_list(hand, f"##object {other}")
@@ -65,7 +65,7 @@ def groups_fold_and_the_camera_leads_to_its_values(hand: Hand) -> None:
 def the_eye_hides_an_object_and_undo_shows_it(hand: Hand) -> None:
     session, (number, _) = hand.session, ball(hand)
     before = hand.pixels()
-    hand.ctx.scroll_to_item_y("//Controls/Scene")
+    hand.ctx.scroll_to_item_y("//Controls/Contents")
     in_list(hand, f"eye of object {number}")
     hand.settle()
     assert session.scene.objects[number].hidden
@@ -83,7 +83,7 @@ def the_eye_hides_an_object_and_undo_shows_it(hand: Hand) -> None:
 @check
 def a_locked_object_is_neither_moved_nor_edited_nor_deleted(hand: Hand) -> None:
     app, session, (number, shape) = hand.window.app, hand.session, ball(hand)
-    hand.ctx.scroll_to_item_y("//Controls/Scene")
+    hand.ctx.scroll_to_item_y("//Controls/Contents")
     in_list(hand, f"lock of object {number}")
     assert session.state.locked == {number}
     app.select(number)
@@ -110,7 +110,7 @@ def a_locked_object_is_neither_moved_nor_edited_nor_deleted(hand: Hand) -> None:
 def keys_walk_through_the_list_and_delete_from_it(hand: Hand) -> None:
     app, session = hand.window.app, hand.session
     camera, objects = session.scene.camera, session.scene.objects
-    hand.ctx.scroll_to_item_y("//Controls/Scene")
+    hand.ctx.scroll_to_item_y("//Controls/Contents")
     in_list(hand, "##object 1")
     for key, number in ((imgui.Key.down_arrow, 2), (imgui.Key.up_arrow, 1)):
         press(hand, key)

@@ -126,7 +126,7 @@ def they_are_swapped_and_b_comes_back_by_undo(hand: Hand) -> None:
     hand.until(lambda: bool(pair.slot and pair.slot.session.samples > 0))
     assert pair.slot
     assert pair.slot.session.settings.bounces == 1
-    hand.ctx.item_click("//Controls/undo")
+    hand.ctx.item_click("//Picture/###undo")
     assert session.state == before
     forget(hand)
 

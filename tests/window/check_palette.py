@@ -5,7 +5,7 @@ from typing import Any
 from imgui_bundle import imgui
 
 from glrt.view.palette.box import NAME
-from glrt.view.panels.panel import SECTIONS
+from glrt.view.tabs.sections import SECTIONS
 from glrt.view.widgets.finder import FINDER
 from tests.window.gestures import ball, press
 from tests.window.hand import Hand, check
@@ -61,7 +61,7 @@ def all_parts_are_listed_and_none_of_them_changes(hand: Hand) -> None:
     find(hand, "")
     found = hand.window._palette.found
     places = {entry.place for entry in found}
-    assert {"command", *(title for title, *_ in SECTIONS)} == places
+    assert {"command", *(part.title for part in SECTIONS)} == places
     names = {entry.name for entry in found}
     assert {"add sphere", "open scene lamps", "keep this picture", "theme"} <= names
     assert f"radius of shape {number}" in names

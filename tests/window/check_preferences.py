@@ -37,7 +37,7 @@ CHOICES: dict[str, Any] = {
 def preferences_are_chosen_and_restart_nothing(hand: Hand) -> None:
     app, ctx, session = hand.window.app, hand.ctx, hand.session
     ctx.set_ref("Controls")
-    ctx.item_open("Window")
+    ctx.item_open("Preferences")
     for label, value in CHOICES.items():
         restarts, samples = session.restarts, session.samples
         reference = f"{label}##preference"
@@ -52,7 +52,7 @@ def preferences_are_chosen_and_restart_nothing(hand: Hand) -> None:
     assert hand.there(lambda: imgui.get_style().color_(imgui.Col_.window_bg).x) > 0.8
     assert "10 %" in "\n".join(figures(app))
     move(hand, "scale##preference", 1.0)
-    ctx.item_close("Window")
+    ctx.item_close("Preferences")
     start, (width, height) = session.scene.camera, imgui.get_io().display_size
     drag(hand, 90, 40)
     expected = orbit.looked(start, -90 * 90 / width, 90 * 40 / height)

@@ -146,6 +146,7 @@ def a_method_that_mixes_the_light_of_lamps_is_named_as_the_reason(hand: Hand) ->
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(imgui, "text_disabled", texts.append)
         hand.there(lambda: hand.session.edit(method="ddgi"))
+        hand.turn_to("Light")
         until_lit(hand)
         assert any("Probes hold the light of all lamps" in text for text in texts)
         assert not any("A smaller picture has room" in text for text in texts)

@@ -34,7 +34,7 @@ def a_compilation_is_announced_while_the_old_picture_stays(hand: Hand) -> None:
 
 @check
 def pause_keeps_the_samples_and_restart_drops_them(hand: Hand) -> None:
-    hand.ctx.item_click("//Controls/pause")
+    hand.ctx.item_click("//Picture/###pause")
     samples = hand.session.samples
     hand.ctx.yield_(5)
     assert hand.session.samples == samples > 0
@@ -42,7 +42,7 @@ def pause_keeps_the_samples_and_restart_drops_them(hand: Hand) -> None:
     hand.until(lambda: hand.session.samples == 1)
     hand.ctx.yield_(3)
     assert hand.session.samples == 1, "a paused picture shows its first sample"
-    hand.ctx.item_click("//Controls/go on")
+    hand.ctx.item_click("//Picture/###pause")
     hand.until(lambda: hand.session.samples > 1)
 
 

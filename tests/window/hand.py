@@ -16,12 +16,13 @@ from numpy.typing import NDArray
 
 from glrt.view.controls import replaced
 from glrt.view.panels.navigation import navigate
-from glrt.view.state.preferences import Preferences
+from glrt.view.state.preferences import Preferences, Tab
 from glrt.view.state.session import Session
 from glrt.view.state.zoom import FIT
 from glrt.view.viewport.picture import Picture
 from glrt.view.widgets.steady_widget import ANCHOR
 from glrt.view.window import Window
+from tests.window.tabbed import TabbedContext
 
 Result = TypeVar("Result")
 Check = Callable[["Hand"], None]
@@ -43,7 +44,7 @@ class Hand:
 
     def __init__(self, window: Window) -> None:
         self.window = window
-        self.ctx: imgui.test_engine.TestContext
+        self.ctx: Any  # of the engine
         self._preferences = Preferences(samples_per_frame=2, tour=False)
         self._errands: list[Callable[[], None]] = []
         self._wanted: list[list[NDArray[np.uint8]]] = []  # where pictures of the window go
@@ -63,6 +64,16 @@ class Hand:
     @property
     def session(self) -> Session:
         return self.window.app.session
+
+    def hold(self, ctx: imgui.test_engine.TestContext) -> None:
+        """Take the engine's context."""
+        self.ctx = TabbedContext(ctx, self.turn_to, lambda: self.window.app.preferences.tab)
+
+    def turn_to(self, tab: Tab) -> None:
+        """Show a tab of the panel."""
+        app = self.window.app
+        self.there(lambda: app.prefer(replaced(app.preferences, tab=tab)))
+        self.ctx.yield_(3)
 
     def there(self, errand: Callable[[], Result]) -> Result:
         """The result of a function that runs on the window's thread, between two frames."""

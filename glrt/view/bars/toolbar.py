@@ -11,9 +11,9 @@ from glrt.view.app import App
 from glrt.view.bars.camera_menu import draw_camera_menu, open_camera_menu
 from glrt.view.controls import Control
 from glrt.view.panels.compare import VIEW
-from glrt.view.panels.panel import SETTINGS
 from glrt.view.panels.shortcuts import COMMANDS
 from glrt.view.state.keys import MEANING, Action, label
+from glrt.view.tabs.kept import SETTINGS
 from glrt.view.widgets.fields import compact
 from glrt.view.widgets.tips import explain
 

@@ -11,6 +11,7 @@ from glrt.view.export.exports import Exports, progress_text
 from glrt.view.export.jobs import Job
 from glrt.view.export.wishes import Kind, Motion, Until, Wish
 from glrt.view.panels.navigation import PICTURE
+from glrt.view.widgets.boxes import box
 from glrt.view.widgets.tips import explain
 
 Word = TypeVar("Word", bound=str)
@@ -42,16 +43,10 @@ def draw_export(app: App) -> None:
     middle = ImVec2(min(part.pos.x + part.size.x / 2, right), area.pos.y + area.size.y / 2)
     imgui.set_next_window_pos(middle, imgui.Cond_.appearing.value, ImVec2(0.5, 0.5))
     imgui.set_next_window_size(ImVec2(width, 0.0))
-    imgui.set_next_window_bg_alpha(1.0)
-    imgui.push_style_var(imgui.StyleVar_.window_border_size, 1.0)
-    flags = imgui.WindowFlags_.no_collapse | imgui.WindowFlags_.no_docking
-    flags |= imgui.WindowFlags_.no_saved_settings | imgui.WindowFlags_.no_resize
-    is_shown, is_open = imgui.begin(NAME, True, int(flags))
-    if is_shown:
-        _content(app)
-    imgui.end()
-    imgui.pop_style_var()
-    if not is_open:
+    with box(NAME, imgui.WindowFlags_.no_resize.value, has_title=True) as drawn:
+        if drawn.is_shown:
+            _content(app)
+    if not drawn.is_open:
         app.exports.is_open = False
 
 

@@ -10,7 +10,7 @@ from glrt.view.widgets.cost_badges import tag
 from glrt.view.widgets.finder import FINDER, Row
 from glrt.view.widgets.steady_widget import ANCHOR
 
-SECTION = "Scene"  # of the panel
+SECTION = "Contents"  # of the panel
 _LEAST, _MOST = 3, 10  # rows in sight
 _SHARE = 0.3  # of the panel's height: the most of it that the rows take
 _WHOLE = 0.5  # of the panel's height: up to this, the list comes into view with the object

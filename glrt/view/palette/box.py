@@ -6,6 +6,7 @@ from glrt.view.app import App
 from glrt.view.palette.entries import all_entries
 from glrt.view.palette.matching import Entry, matches
 from glrt.view.panels.navigation import PICTURE
+from glrt.view.widgets.boxes import box
 
 NAME = "Find###palette"
 _WIDTH, _ROWS = 34.0, 12.0  # em, and rows that are seen at once
@@ -32,15 +33,9 @@ class Palette:
         top, width = _place()
         imgui.set_next_window_pos(top, imgui.Cond_.always.value, ImVec2(0.5, 0.0))
         imgui.set_next_window_size(ImVec2(width, 0.0))
-        imgui.set_next_window_bg_alpha(1.0)
-        imgui.push_style_var(imgui.StyleVar_.window_border_size, 1.0)
-        flags = imgui.WindowFlags_.no_title_bar | imgui.WindowFlags_.no_docking
-        flags |= imgui.WindowFlags_.no_saved_settings | imgui.WindowFlags_.no_resize
-        imgui.begin(NAME, None, int(flags | imgui.WindowFlags_.no_nav))
-        chosen = self._content(app, area.size.y)
-        is_left = imgui.is_mouse_clicked(0) and not imgui.is_window_hovered(_HOVERED)
-        imgui.end()
-        imgui.pop_style_var()
+        with box(NAME, int(imgui.WindowFlags_.no_resize | imgui.WindowFlags_.no_nav)):
+            chosen = self._content(app, area.size.y)
+            is_left = imgui.is_mouse_clicked(0) and not imgui.is_window_hovered(_HOVERED)
         if chosen or is_left or imgui.is_key_pressed(imgui.Key.escape):
             app.shows_palette = False
             imgui.set_window_focus(PICTURE)

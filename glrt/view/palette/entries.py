@@ -9,9 +9,9 @@ from glrt.scene.scenefile.catalog import scene_names
 from glrt.view.app import App
 from glrt.view.edits.new_objects import ADDED
 from glrt.view.palette.matching import Entry
-from glrt.view.panels.panel import SECTIONS
 from glrt.view.panels.shortcuts import COMMANDS
 from glrt.view.state import keys
+from glrt.view.tabs.sections import SECTIONS
 from glrt.view.viewport.sides import SIDES
 from glrt.view.widgets.finder import FINDER, Row
 
@@ -91,9 +91,9 @@ def _listed(app: App) -> list[Row]:
     window.skip_items = True
     FINDER.begin_list()
     try:
-        for title, section, _ in SECTIONS:
-            FINDER.enter(title)
-            section(app)
+        for section in SECTIONS:
+            FINDER.enter(section.title)
+            section.draw(app)
     finally:
         rows = FINDER.end_list()
         window.skip_items = False

@@ -3,7 +3,6 @@
 Modules, each importing only what stands above it:
 
 - layout: sizes of the panels, and their ground
-- bar: commands that do not scroll
 - confirmations: questions before data is lost
 - tour: five steps for a newcomer
 - legend: legend of false colours
@@ -22,7 +21,6 @@ Modules, each importing only what stands above it:
 - sun: position of the sun
 - path_overlay: paths over the picture, and from outside
 - pixel_paths: paths of a pixel
-- panel: all sections of the main panel
 - pair_images: pictures A and B
 - shortcuts: keyboard commands
 - viewport: the picture and the mouse

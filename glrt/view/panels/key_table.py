@@ -7,6 +7,7 @@ from glrt.view.app import App
 from glrt.view.controls import replaced
 from glrt.view.state import keys
 from glrt.view.state.keys import Action
+from glrt.view.widgets.boxes import box
 from glrt.view.widgets.fields import beside, button, tip
 
 NAME = "Keys###keys over the window"
@@ -127,17 +128,11 @@ def draw_key_overlay(app: App) -> None:
     imgui.set_next_window_pos(middle, imgui.Cond_.always.value, ImVec2(0.5, 0.5))
     largest = ImVec2(_SHARE * area.size.x, _SHARE * area.size.y)
     imgui.set_next_window_size_constraints(ImVec2(0, 0), largest)
-    imgui.set_next_window_bg_alpha(1.0)
-    imgui.push_style_var(imgui.StyleVar_.window_border_size, 1.0)
-    flags = imgui.WindowFlags_.always_auto_resize | imgui.WindowFlags_.no_docking
-    flags |= imgui.WindowFlags_.no_saved_settings | imgui.WindowFlags_.no_title_bar
-    is_shown, _ = imgui.begin(NAME, None, int(flags))
-    if is_shown:
-        _tables(app)
-        is_clicked = imgui.is_mouse_clicked(0) and not imgui.is_window_appearing()
-        app.shows_keys = not is_clicked or imgui.is_window_hovered()
-    imgui.end()
-    imgui.pop_style_var()
+    with box(NAME, imgui.WindowFlags_.always_auto_resize.value) as drawn:
+        if drawn.is_shown:
+            _tables(app)
+            is_clicked = imgui.is_mouse_clicked(0) and not imgui.is_window_appearing()
+            app.shows_keys = not is_clicked or imgui.is_window_hovered()
 
 
 def _tables(app: App) -> None:

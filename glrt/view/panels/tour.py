@@ -4,6 +4,7 @@ from imgui_bundle import ImVec2, hello_imgui, imgui
 
 from glrt.view.app import App
 from glrt.view.controls import replaced
+from glrt.view.widgets.boxes import box
 from glrt.view.widgets.fields import button, tip
 
 STEPS = (
@@ -15,15 +16,15 @@ STEPS = (
     ),
     (
         "Change the light",
-        "Drag the intensity or a colour under Light. The mark next to each control shows what an "
-        "edit costs. Ring with a dot: all samples stay. Disk: they are discarded. Square: a kernel "
-        "is compiled first.",
+        "Drag the intensity or a colour in the tab Light. The mark next to each control shows what "
+        "an edit costs. Ring with a dot: all samples stay. Disk: they are discarded. Square: a "
+        "kernel is compiled first.",
     ),
     (
         "Edit objects",
         "Click an object: it is outlined, its handles move it, and the panel shows its "
-        "material. The button add, under Object, makes a new object. Everything can be undone by "
-        "Ctrl-Z.",
+        "material. The button add, in the tab Scene, makes a new object. Everything can be undone "
+        "by Ctrl-Z.",
     ),
     (
         "Ask a pixel",
@@ -51,18 +52,16 @@ def draw_tour(app: App) -> None:
     app.tour_beside = size
     imgui.set_next_window_pos(place, when.value, ImVec2(1.0, 0.0))
     imgui.set_next_window_size(ImVec2(hello_imgui.em_size(_WIDTH), 0.0))
-    flags = imgui.WindowFlags_.no_collapse | imgui.WindowFlags_.no_docking
-    flags |= imgui.WindowFlags_.no_saved_settings | imgui.WindowFlags_.no_focus_on_appearing
     title, text = STEPS[app.tour_step]
     number = f"{app.tour_step + 1} of {len(STEPS)}"
-    is_shown, is_open = imgui.begin(f"{title} ({number})###tour", True, int(flags))
-    if is_shown:
-        below = imgui.get_cursor_pos_y() + _tallest(imgui.get_content_region_avail().x)
-        imgui.text_wrapped(text)
-        imgui.set_cursor_pos_y(below + imgui.get_style().item_spacing.y)
-        _answers(app, app.tour_step)
-    imgui.end()
-    if not is_open:
+    flags = imgui.WindowFlags_.no_focus_on_appearing.value
+    with box(f"{title} ({number})###tour", flags, has_title=True) as drawn:
+        if drawn.is_shown:
+            below = imgui.get_cursor_pos_y() + _tallest(imgui.get_content_region_avail().x)
+            imgui.text_wrapped(text)
+            imgui.set_cursor_pos_y(below + imgui.get_style().item_spacing.y)
+            _answers(app, app.tour_step)
+    if not drawn.is_open:
         app.tour_step = None
 
 
@@ -83,4 +82,4 @@ def _answers(app: App, step: int) -> None:
     imgui.same_line()
     if button("do not show again"):
         app.prefer(replaced(app.preferences, tour=False))
-    tip("Tick tour under Window, at the end of the panel, to see it again; x closes it until then")
+    tip("Tick tour in the tab Window to see it again; x closes it until then")

@@ -5,6 +5,7 @@ import time
 from imgui_bundle import ImVec2, hello_imgui, imgui
 
 from glrt.view.recovery.keeper import Recovery
+from glrt.view.widgets.boxes import box
 from glrt.view.widgets.fields import button, tip
 
 NAME = "Edits that were not saved###recovery"
@@ -24,13 +25,10 @@ def draw_recovery(recovery: Recovery) -> None:
     imgui.set_next_window_pos(place, imgui.Cond_.always.value, ImVec2(1.0, 1.0))
     width = min(hello_imgui.em_size(_WIDTH), picture.size.x - 2 * apart)
     imgui.set_next_window_size(ImVec2(width, 0.0))
-    flags = imgui.WindowFlags_.no_collapse | imgui.WindowFlags_.no_docking
-    flags |= imgui.WindowFlags_.no_saved_settings | imgui.WindowFlags_.no_focus_on_appearing
-    is_shown, is_open = imgui.begin(NAME, True, int(flags))
-    if is_shown:
-        _answers(recovery)
-    imgui.end()
-    if not is_open:
+    with box(NAME, imgui.WindowFlags_.no_focus_on_appearing.value, has_title=True) as drawn:
+        if drawn.is_shown:
+            _answers(recovery)
+    if not drawn.is_open:
         recovery.put_off()
 
 

@@ -1,5 +1,6 @@
 """The start screen: what was opened last, and the scenes that come with glrt as pictures."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 from imgui_bundle import ImVec2, hello_imgui, imgui
@@ -22,9 +23,9 @@ _DROP = "or drop a scene, a model or a picture on the window"
 class StartScreen:
     """Scenes and files to open, in place of the picture until one is chosen."""
 
-    def __init__(self, thumbnails: Thumbnails) -> None:
-        """The screen releases the thumbnails."""
-        self._thumbnails = thumbnails
+    def __init__(self, read: Callable[[], Thumbnails]) -> None:
+        """Read no pictures before the screen is drawn: that takes 0.1 s. It releases them."""
+        self._read, self._pictures = read, list[Thumbnails]()
         self._behind: State | None = None  # since it was opened
         self._frame = -2  # that showed it last
 
@@ -78,7 +79,15 @@ class StartScreen:
 
     def release(self) -> None:
         """Release the pictures."""
-        self._thumbnails.release()
+        for pictures in self._pictures:
+            pictures.release()
+        self._pictures.clear()
+
+    @property
+    def _thumbnails(self) -> Thumbnails:
+        """The pictures, which are read once."""
+        self._pictures = self._pictures or [self._read()]
+        return self._pictures[0]
 
 
 def _stage(text: str, share: float) -> None:

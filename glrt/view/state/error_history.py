@@ -2,22 +2,27 @@
 
 import math
 from collections.abc import Hashable
-from typing import NamedTuple
+from concurrent.futures import Future, ThreadPoolExecutor
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from glrt.error.estimate import Band, error_band
 from glrt.error.reliability_of_scene import judged
-from glrt.plan.plan import Weights, are_trivial
+from glrt.plan.plan import Plan, Weights, are_trivial
 from glrt.rendering.renderer import Renderer
 from glrt.view.state.histogram import DARK, Histogram, histogram
 from glrt.view.state.session import Session
+
+Array = NDArray[Any]
 
 GROWTH = 1.25  # factor of the samples between looks at the error: a look takes time
 PAUSE = 0.5  # seconds between two looks, at least
 MARGIN = 1.6  # factor by which a plot exceeds its looks: its square is more than 5 / 2
 FARTHEST = 100.0  # times as long as so far: largest forecast that a plot shows
 EMPTY = (0.1, 100.0, 0.01, 1.0)  # the limits of a plot that has no line yet
+_THREAD = ThreadPoolExecutor(1, "figures")  # one look at a time, so that it takes one core
 
 
 class Look(NamedTuple):
@@ -37,46 +42,86 @@ class Look(NamedTuple):
         return self.band.error
 
 
-def look_at(renderer: Renderer, weights: Weights, seconds: float) -> Look | None:
-    """Read a picture, its layers weighted, and return its figures; None without an error yet."""
-    film = renderer.film
-    radiance, stderr = renderer.picture(weights)
-    band = error_band(radiance, stderr)
-    if band is None:
-        return None
-    mean = float(radiance.mean(dtype=np.float64))
-    picture = (film.samples, radiance, stderr)
-    doubt = (
-        judged(renderer.plan.scene, renderer.plan.settings, *picture)
-        if are_trivial(weights)
-        else None
+class Reading(NamedTuple):
+    """Values of a picture that a look needs; without OpenGL, a thread can use them."""
+
+    plan: Plan
+    samples: int
+    seconds: float  # of rendering
+    radiance: Array  # (H, W, 3), weighted
+    stderr: Array  # (H, W, 3), of the radiance
+    nonfinite: int  # samples that were dropped
+    is_plain: bool  # whether no layer is weighted
+
+    def look(self) -> Look | None:
+        """Return the figures of the picture; None without an error yet. It takes up to seconds."""
+        band = error_band(self.radiance, self.stderr)
+        if band is None:
+            return None
+        mean = float(self.radiance.mean(dtype=np.float64))
+        picture = (self.samples, self.radiance, self.stderr)
+        doubt = judged(self.plan.scene, self.plan.settings, *picture) if self.is_plain else None
+        counts = histogram(self.radiance)
+        return Look(self.samples, self.seconds, band, mean, self.nonfinite, doubt, counts)
+
+
+def read(renderer: Renderer, weights: Weights, seconds: float) -> Reading:
+    """Read a picture, its layers weighted; needs a current context."""
+    film, plan = renderer.film, renderer.plan
+    picture = renderer.picture(weights)
+    return Reading(
+        plan, film.samples, seconds, *picture, film.dropped(), bool(are_trivial(weights))
     )
-    return Look(film.samples, seconds, band, mean, film.dropped(), doubt, histogram(radiance))
 
 
 class Progress:
     """Looks at one picture since its first sample, separate from looks under another light."""
 
-    def __init__(self) -> None:
-        """Begin without a look."""
+    def __init__(self, in_thread: bool = False) -> None:
+        """Begin without a look; a thread computes figures on request, as they take up to 1.5 s."""
         self.looks: list[Look] = []
         self._relit: list[Look] = []  # under another light
         self._picture: Hashable = None
         self._light: Hashable = None
         self._looked = 0.0
+        self._in_thread = in_thread
+        self._awaited: Future[Look | None] | None = None
+
+    @property
+    def is_looking(self) -> bool:
+        """Whether a thread computes figures, or has computed some that were not taken yet."""
+        return self._awaited is not None
 
     def follow(self, session: Session, now: float) -> Look | None:
-        """Look at the picture if that is due, and return the look; call it once a frame."""
+        """Look at the picture if that is due, and return the look; call it once a frame.
+
+        A look of a thread is returned by a later call, unless the picture is another one by then.
+        """
         renderer = session.renderer
         if not renderer:
             return None
         self.begin(session.restarts, session.weights)
+        if self._awaited:
+            return self._taken(self._awaited, now)
         has_history = session.moving.is_shown(renderer, session.settings.samples)
         if session.is_passing or has_history or session.samples < session.known_from:
             return None  # of fewer samples no error is known, and reading them takes time
         if not self.is_due(session.samples, now, session.is_done):
             return None
-        look = look_at(renderer, session.weights, session.rendering)
+        reading = read(renderer, session.weights, session.rendering)
+        if self._in_thread:
+            self._awaited = _THREAD.submit(reading.look)
+            return None
+        look = reading.look()
+        self.record(look, now)
+        return look
+
+    def _taken(self, awaited: "Future[Look | None]", now: float) -> Look | None:
+        """Return the look that a thread has finished, and record it; None before that."""
+        if not awaited.done():
+            return None
+        self._awaited = None
+        look = awaited.result()
         self.record(look, now)
         return look
 
@@ -85,6 +130,8 @@ class Progress:
 
         `picture` identifies the picture: it changes with each restart.
         """
+        if (picture, light) != (self._picture, self._light):
+            self._awaited = None  # what it finds is of another picture
         if picture != self._picture:
             self.looks, self._relit = [], []
         elif light != self._light:

@@ -17,6 +17,7 @@ from glrt.view.state.keys import DEFAULTS, Bindings
 
 Mode = Literal["orbit", "fly"]
 Theme = Literal["dark", "light"]
+Tab = Literal["Scene", "Light", "Render", "Compare", "Inspect", "Window"]
 
 FREE = Cost.FREE
 
@@ -80,6 +81,10 @@ class Preferences(Frozen):
     tour: Annotated[bool, Editable(FREE)] = Field(
         True, description="show the five steps of the tour at the start"
     )
+    tab: Annotated[Tab, Editable(FREE)] = Field(
+        "Render", description="tab of the panel that is shown"
+    )
+    folded: tuple[str, ...] = Field((), description="titles of parts of the panel that are folded")
     bindings: Bindings = Field(
         DEFAULTS, description="keys of each action that differ from the defaults"
     )

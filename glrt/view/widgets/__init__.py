@@ -3,6 +3,7 @@
 Modules, each importing only what stands above it:
 
 - tips: tooltips
+- boxes: boxes over the window
 - slider_text: text of a slider
 - steady_widget: keeps the last used widget in place
 - cost_badges: marks that show the cost of an edit

@@ -65,8 +65,9 @@ class Finder:
         ANCHOR.forget()
 
     def wants(self, section: str) -> bool:
-        """Whether a part of the panel must be unfolded for its row."""
-        return self._frames > 0 and self._wanted is not None and self._wanted.section == section
+        """Whether a part of the panel must be unfolded for its row, which may be gone by now."""
+        row = self._wanted
+        return self._frames > 0 and self.is_marking and row is not None and row.section == section
 
     @property
     def is_marking(self) -> bool:

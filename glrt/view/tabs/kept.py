@@ -1,0 +1,34 @@
+"""Rows of settings and of preferences, which keep what is edited."""
+
+from typing import Any
+
+from glrt.settings import Settings
+from glrt.view.app import App
+from glrt.view.controls import Control, controls_of, replaced
+from glrt.view.state.preferences import Preferences
+from glrt.view.widgets.fields import edited_fields
+
+SETTINGS = {c.name: c for c in controls_of(Settings, leave_out=("crop", "denoise", "adaptive"))}
+PREFERENCES = controls_of(Preferences, leave_out=("tab",))
+MOVING = ("mode", "temporal", "predictor")  # with the camera
+FREE_SAMPLES = ("samples_per_frame", "target_error")  # with the samples
+
+
+def settings_rows(app: App, names: tuple[str, ...]) -> None:
+    """Draw the settings of these names."""
+    controls, opened = tuple(SETTINGS[n] for n in names), app.session.opened.settings
+    edit(app, edited_fields(controls, dict(app.session.settings), opened=opened))
+
+
+def edit(app: App, changes: dict[str, Any]) -> None:
+    """Edit settings; edits of the same ones that follow each other are one step of undo."""
+    if changes:
+        app.session.edit(gesture=f"{list(changes)}", **changes)
+
+
+def preferences_rows(app: App, controls: list[Control]) -> None:
+    """Draw preferences of the window."""
+    changes = edited_fields(tuple(controls), dict(app.preferences), "preference")
+    if changes:
+        with app.messages.reporting():
+            app.prefer(replaced(app.preferences, **changes))
