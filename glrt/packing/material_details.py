@@ -16,16 +16,18 @@ from glrt.plan.facts import SceneFacts
 from glrt.scene.materials import facets, gloss
 from glrt.scene.materials.conductors import Conductor
 from glrt.scene.materials.dielectric import Dielectric
-from glrt.scene.materials.facets import STEPS, facet_loss
+from glrt.scene.materials.facets import STEPS, facet_loss, mean_loss
 from glrt.scene.materials.gloss import (
     ROUGHNESS_STEPS,
     FacetShares,
     facet_shares,
     shares_around,
     shares_by_step,
+    turn_weights,
 )
 from glrt.scene.materials.metal import Metal
 from glrt.scene.materials.principled import Principled
+from glrt.scene.materials.thin_film import reflectance_bound
 
 Array = np.ndarray[Any, Any]
 ALBEDOS = STEPS  # rows of the struct Albedo for each kind of facets
@@ -63,10 +65,12 @@ def pack_facets(facts: SceneFacts) -> dict[str, Array]:
     albedos: Albedos = []
     glasses = _pack_glasses(facts, albedos)
     gloss = _pack_gloss(facts, albedos)
-    return {"Glass": glasses, "Gloss": gloss, "Albedo": _rows_of(albedos)}
+    tables = _rows_of(albedos)
+    return {"Glass": glasses, "Gloss": gloss, "Albedo": np.concatenate([tables, _films(facts)])}
 
 
 Albedos = list[tuple[Array, Array]]  # two albedos at each step
+Finished = tuple[str, Principled, FacetShares]  # a material with its name and one row's shares
 
 
 def _pack_glasses(facts: SceneFacts, albedos: Albedos) -> Array:
@@ -161,6 +165,54 @@ def _pack_gloss(facts: SceneFacts, albedos: Albedos) -> Array:
         row["again"] = again = _again(max(it.head_on), it.specular, shares.kept)
         left = 1 - _taken(max(it.head_on), it.specular, again, shares)
         row["even_base"] = 1 / left if left > 0 else 0.0
+    _put_films(facts, of_all, rows, ALBEDOS * len(albedos))
+    return rows
+
+
+def _put_films(facts: SceneFacts, of_all: list[Finished], rows: Array, first: int) -> None:
+    """Change rows of the struct Gloss under thin films, whose own rows begin at `first`."""
+    row_of = {name: first + k for k, name in enumerate(facts.lobes.iridescent)}
+    for row, (name, it, shares) in zip(rows, of_all, strict=True):
+        if name in row_of:
+            row["glass"] = -1 - row_of[name]
+            row["brightest"], _ = factors = _bound(it)
+            tables = _tables(it, shares)
+            weights = turn_weights(it.stretch) if len(tables) > 1 else np.ones(1)
+            left = _mean_left(tables, weights, (*factors, float(row["again"])))
+            row["even_base"] = 1 / left if left > 0 else 0.0
+
+
+def _bound(material: Principled) -> tuple[float, float]:
+    """Return f0 and f90 that bound the reflectance of facets that are partly under a film."""
+    film, specular = material.film, material.specular
+    if film is None or specular == 0:
+        return max(material.head_on), specular
+    share = material.iridescence * film.presence
+    red, green, blue = (each / specular for each in material.head_on)
+    head, edge = reflectance_bound(film, (red, green, blue))
+    f0 = max(material.head_on) + share * (specular * head - max(material.head_on))
+    return f0, specular + share * specular * (edge - 1)
+
+
+def _mean_left(tables: list[FacetShares], weights: Array, factors: tuple[float, ...]) -> float:
+    """Return the share of even light that facets under a film leave.
+
+    `factors` are those of the light by `head_on`, by `grazing` and lost. At grazing angles they
+    bound what is taken by more than all light.
+    """
+    taken = [
+        np.array(factors) @ [it.head_on, it.grazing, 1 - it.head_on - it.grazing] for it in tables
+    ]
+    return float(weights @ [mean_loss(np.minimum(each, 1)) for each in taken])
+
+
+def _films(facts: SceneFacts) -> Array:
+    """Return rows of the struct Albedo that hold thin films."""
+    films = [(it, it.film) for it in _principled(facts).values() if it.film]
+    rows = np.zeros(len(films), STRUCTS["Albedo"])
+    for row, (it, film) in zip(rows, films, strict=True):
+        row["one"], row["other"] = it.iridescence * film.presence, film.ior
+        row["one_end"], row["other_end"] = film.micrometres, _bound(it)[1]
     return rows
 
 

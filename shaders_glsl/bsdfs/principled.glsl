@@ -5,6 +5,7 @@
 //   the base, (1 - E(wo)) (1 - E(wi)) / mean(1 - E) of the dielectric facets (Kelemen and Szirmay-Kalos, "A
 //   Microfacet Based Coupled Specular-Matte BRDF Model with Importance Sampling", 2001);
 //   all layers below the coat, the lesser of 1 - E(wo) and 1 - E(wi) of the coat.
+// Under a thin film E is of a bound of its reflectance.
 // Light that facets lose to each other comes back as one lobe (Kulla and Conty 2017, as in rough_dielectric.glsl).
 // Smooth facets are deltas: they are sampled, but have neither a value nor a density.
 
@@ -25,14 +26,7 @@ Material met_part(Material material, float u) {
     return glass;
 }
 
-float schlick_weight(float cosine) {
-    float x = max(1.0 - cosine, 0.0);
-    float x2 = x * x;
-    float weight = x2 * x2 * x;
-    return weight;
-}
-
-// The facets of a surface, metal and dielectric together, and its base.
+// The facets of a surface, metal and dielectric together, and its base. A thin film on them is not in f0 and f90.
 struct Principled {
     Gloss gloss;
     vec3 f0;
@@ -60,6 +54,25 @@ Principled principled_of(Material material) {
     return Principled(gloss, f0, f90, again, base);
 }
 
+// Reflectance of facets for light at an angle to their normal; edge: the weight of Schlick at that angle. A film
+// lies on all of them: on metal over its colour, and on the rest over f0 without `specular`, which is f90.
+vec3 facet_reflectance(Principled it, Material material, float cosine, float edge) {
+    vec3 plain = it.f0 + (it.f90 - it.f0) * edge;
+    if (!has_film(it.gloss)) return plain;
+    ThinFilm film = film_of(it.gloss);
+    float specular = it.gloss.f90;
+    vec3 found = vec3(0.0);
+    if (material.metallic < 1.0 && specular > 0.0) {
+        found = specular * film_reflectance(film, it.gloss.f0 / specular, cosine);
+    }
+    if (material.metallic > 0.0) {
+        vec3 of_metal = film_reflectance(film, material.color, cosine);
+        found += material.metallic * (of_metal - found);
+    }
+    vec3 reflectance = plain + film.share * (found - plain);
+    return reflectance;
+}
+
 // The factors of f0 and f90 in the light that facets reflect from a direction. Facets that are rougher along x have
 // tables at even steps of |y| / (r |x| + |y|), where r is the root of how much rougher they are.
 vec2 albedos_around(Vertex vertex, Gloss gloss, vec3 w) {
@@ -84,8 +97,11 @@ struct Shares {
 Shares shares_of(Vertex vertex, Gloss gloss, vec3 w) {
     vec2 facets = albedos_around(vertex, gloss, w);
     float lost = 1.0 - facets.x - facets.y;
-    float taken = gloss.brightest * facets.x + gloss.f90 * facets.y + gloss.again * lost;
+    float edge = gloss.f90;
+    if (has_film(gloss)) edge = film_of(gloss).edge;
+    float taken = gloss.brightest * facets.x + edge * facets.y + gloss.again * lost;
     float left = 1.0 - taken;
+    if (HAS_IRIDESCENCE) left = max(left, 0.0);
     return Shares(facets, lost, left);
 }
 
@@ -132,10 +148,12 @@ ColorLobe principled_lobe(Principled it, Vertex vertex, vec3 wi, vec3 h) {
     value += it.base * (from.base * to.base * gloss.even_base);
     value *= even;
     float alpha = vertex.material.alpha;
-    float edge = schlick_weight(dot(vertex.wo, h));
+    float along = dot(vertex.wo, h);
+    float edge = schlick_weight(along);
     if (alpha > 0.0) {
         float density = pdf_facets(vertex, h);
-        value += (it.f0 + (it.f90 - it.f0) * edge) * (density * facets_weight(vertex, wi));
+        vec3 reflectance = facet_reflectance(it, vertex.material, along, edge);
+        value += reflectance * (density * facets_weight(vertex, wi));
         pdf += chances.y * density;
     }
     if (!HAS_COAT || gloss.coat == 0.0) return ColorLobe(value, pdf);
@@ -187,7 +205,8 @@ Scattering sample_principled(Vertex vertex, float choice, vec2 u) {
         float alpha = is_coat ? gloss.coat_alpha : vertex.material.alpha;
         if (alpha == 0.0) {
             float edge = schlick_weight(cosine);
-            vec3 weight = (it.f0 + (it.f90 - it.f0) * edge) * below_coat(gloss, cosine) / chances.y;
+            vec3 reflectance = facet_reflectance(it, vertex.material, cosine, edge);
+            vec3 weight = reflectance * below_coat(gloss, cosine) / chances.y;
             if (is_coat) weight = vec3(gloss.coat * (COAT_F0 + (1.0 - COAT_F0) * edge) / chances.x);
             vec3 mirrored = normalized(vertex.frame * wi);
             return Scattering(mirrored, weight, 0.0, 1.0, false);

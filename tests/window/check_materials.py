@@ -55,6 +55,9 @@ def a_principled_surface_is_edited_live(hand: Hand) -> None:
         ("clearcoat roughness", 0.0, Cost.RESTART),
         ("anisotropy", 0.5, Cost.RECOMPILE),
         ("anisotropy rotation", 90.0, Cost.RESTART),
+        ("iridescence", 1.0, Cost.RECOMPILE),
+        ("iridescence ior", 1.8, Cost.RESTART),
+        ("iridescence thickness", 250.0, Cost.RESTART),
         ("ior", 2.0, Cost.RESTART),
     ):
         before, hand.session.last_cost = hand.pixels(), None

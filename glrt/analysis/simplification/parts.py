@@ -20,6 +20,7 @@ FEATURES: Mapping[str, Any] = {
     "normal": None,
     "clearcoat": 0.0,
     "anisotropy": 0.0,
+    "iridescence": 0.0,
     "transmission": 0.0,
     "roughness": 0.0,
     "metallic": 0.0,
