@@ -28,6 +28,7 @@
 #include "bsdfs/rough_dielectric.glsl"
 #include "bsdfs/pane.glsl"
 #include "bsdfs/iridescence.glsl"
+#include "bsdfs/sheen.glsl"
 #include "bsdfs/principled.glsl"
 #include "bsdfs/material.glsl"
 #include "lights/emission.glsl"

@@ -1,4 +1,4 @@
-"""Rough glass, plastic, films and brushed metal: the light that they keep; a lamp in glass."""
+"""Rough glass, plastic, films, cloth, brushed metal: the light that they keep; a lamp in glass."""
 
 import math
 from collections.abc import Iterator
@@ -135,6 +135,39 @@ def soap(lab: Lab) -> Sweep:
         others=dict(others),
         promise="at most 0.005",
         bound=[0.005] * len(x),
+    )
+
+
+# Sheen that is not held back where it reflects more than all light.
+_FREE = f"""{_COLORS}
+    vec3 wi = next.direction;
+    Sheen sheen = sheen_of(gloss_at(0));
+    float most = max(albedos(sheen.first, wo.z).x, albedos(sheen.first, wi.z).x);
+    float more = eval_white_sheen(sheen, wo, wi, normalized(wo + wi)) * (max(most, 1.0) - 1.0);
+    if (next.pdf > 0.0) colors += more / next.pdf;"""
+
+
+def velvet(lab: Lab) -> Sweep:
+    """Share of light that white cloth gains: the worst of six directions."""
+    x = [0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4]
+    count = lab.count(1 << 16, 1 << 15)
+    ways = {"glrt: held back by its albedo": _COLORS, "sheen as it is": _FREE}
+    gains: dict[str, list[float]] = {name: [] for name in ways}
+    for roughness in x:
+        cloth = {"sheen": [1, 1, 1], "sheen_roughness": roughness}
+        materials = {"p": {"type": "principled", "roughness": 0.8, **cloth}}
+        scene = scene_of([sphere([0, 0, -3], 1, "p")], materials)
+        for name, setup in ways.items():
+            gains[name].append(max(_gains(lab, scene, setup, count)))
+    first, *others = gains.items()
+    return Sweep(
+        parameter="roughness of sheen",
+        measure="light gained\n(share, largest)",
+        x=x,
+        chosen=first,
+        others=dict(others),
+        promise="at most 0.01",
+        bound=[0.01] * len(x),
     )
 
 

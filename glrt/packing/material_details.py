@@ -27,7 +27,8 @@ from glrt.scene.materials.gloss import (
 )
 from glrt.scene.materials.metal import Metal
 from glrt.scene.materials.principled import Principled
-from glrt.scene.materials.thin_film import reflectance_bound
+from glrt.scene.materials.sheen import sheen_albedos, sheen_alpha
+from glrt.scene.materials.thin_film import ThinFilm, reflectance_bound
 
 Array = np.ndarray[Any, Any]
 ALBEDOS = STEPS  # rows of the struct Albedo for each kind of facets
@@ -66,7 +67,7 @@ def pack_facets(facts: SceneFacts) -> dict[str, Array]:
     glasses = _pack_glasses(facts, albedos)
     gloss = _pack_gloss(facts, albedos)
     tables = _rows_of(albedos)
-    return {"Glass": glasses, "Gloss": gloss, "Albedo": np.concatenate([tables, _films(facts)])}
+    return {"Glass": glasses, "Gloss": gloss, "Albedo": np.concatenate([tables, *_layers(facts)])}
 
 
 Albedos = list[tuple[Array, Array]]  # two albedos at each step
@@ -165,13 +166,16 @@ def _pack_gloss(facts: SceneFacts, albedos: Albedos) -> Array:
         row["again"] = again = _again(max(it.head_on), it.specular, shares.kept)
         left = 1 - _taken(max(it.head_on), it.specular, again, shares)
         row["even_base"] = 1 / left if left > 0 else 0.0
-    _put_films(facts, of_all, rows, ALBEDOS * len(albedos))
+    _put_layers(facts, of_all, rows, ALBEDOS * len(albedos))
     return rows
 
 
-def _put_films(facts: SceneFacts, of_all: list[Finished], rows: Array, first: int) -> None:
-    """Change rows of the struct Gloss under thin films, whose own rows begin at `first`."""
-    row_of = {name: first + k for k, name in enumerate(facts.lobes.iridescent)}
+def _put_layers(facts: SceneFacts, of_all: list[Finished], rows: Array, first: int) -> None:
+    """Change rows of the struct Gloss with films or sheen, whose own rows begin at `first`."""
+    row_of = dict[str, int]()
+    for name, own in zip(_layered(facts), _layers(facts), strict=True):
+        row_of[name] = first
+        first += len(own)
     for row, (name, it, shares) in zip(rows, of_all, strict=True):
         if name in row_of:
             row["glass"] = -1 - row_of[name]
@@ -206,14 +210,29 @@ def _mean_left(tables: list[FacetShares], weights: Array, factors: tuple[float, 
     return float(weights @ [mean_loss(np.minimum(each, 1)) for each in taken])
 
 
-def _films(facts: SceneFacts) -> Array:
-    """Return rows of the struct Albedo that hold thin films."""
-    films = [(it, it.film) for it in _principled(facts).values() if it.film]
-    rows = np.zeros(len(films), STRUCTS["Albedo"])
-    for row, (it, film) in zip(rows, films, strict=True):
-        row["one"], row["other"] = it.iridescence * film.presence, film.ior
-        row["one_end"], row["other_end"] = film.micrometres, _bound(it)[1]
-    return rows
+def _layered(facts: SceneFacts) -> dict[str, Principled]:
+    found = _principled(facts)
+    return {name: it for name, it in found.items() if it.film or any(it.sheen)}
+
+
+def _layers(facts: SceneFacts) -> list[Array]:
+    """Return rows of the struct Albedo for each material with a thin film or sheen.
+
+    The first is the film, the second the sheen, and albedos of sheen follow.
+    """
+    return [_layer(it) for it in _layered(facts).values()]
+
+
+def _layer(material: Principled) -> Array:
+    rows = np.zeros(2, STRUCTS["Albedo"])
+    film = material.film or ThinFilm(1.0, 0.0)
+    share = material.iridescence * film.presence
+    rows[0] = share, film.ior, film.micrometres, _bound(material)[1]
+    alpha = sheen_alpha(material.sheen_roughness)
+    rows[1] = *material.sheen, 0.5 / alpha
+    if not any(material.sheen):
+        return np.concatenate([rows, _rows_of([(np.zeros(ALBEDOS + 1),) * 2])])
+    return np.concatenate([rows, _rows_of([sheen_albedos(alpha)])])
 
 
 def _again(f0: float, f90: float, kept: float) -> float:

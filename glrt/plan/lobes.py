@@ -37,6 +37,11 @@ class LobeFacts:
         return [name for name, it in self._principled.items() if it.film]
 
     @property
+    def sheened(self) -> list[str]:
+        """Names of the principled materials with sheen."""
+        return [name for name, it in self._principled.items() if any(it.sheen)]
+
+    @property
     def transmitting(self) -> list[str]:
         """Names of the principled materials that are partly glass."""
         return [name for name, it in self._principled.items() if it.glass]

@@ -5,7 +5,8 @@
 //   the base, (1 - E(wo)) (1 - E(wi)) / mean(1 - E) of the dielectric facets (Kelemen and Szirmay-Kalos, "A
 //   Microfacet Based Coupled Specular-Matte BRDF Model with Importance Sampling", 2001);
 //   all layers below the coat, the lesser of 1 - E(wo) and 1 - E(wi) of the coat.
-// Under a thin film E is of a bound of its reflectance.
+// Under a thin film E is of a bound of its reflectance. Sheen lies between the coat and the facets, and lets light
+// through by the rule of the coat.
 // Light that facets lose to each other comes back as one lobe (Kulla and Conty 2017, as in rough_dielectric.glsl).
 // Smooth facets are deltas: they are sampled, but have neither a value nor a density.
 
@@ -118,15 +119,23 @@ float mean_of(vec3 color) {
     return mean;
 }
 
-// Chances that a sample is of the coat, of the facets, or of the base with the light that facets lose. They are about
-// the shares of these in light that comes from wo.
-vec3 lobe_chances(Principled it, float cosine, Shares shares) {
+// Chances that a sample is of the coat, of the facets, of the base with the light that facets lose, or of sheen. They
+// are about the shares of these in light that comes from wo.
+vec4 lobe_chances(Principled it, float cosine, Shares shares) {
     float left = below_coat(it.gloss, cosine);
     float facets = left * mean_of(it.f0 * shares.facets.x + it.f90 * shares.facets.y);
     float base = left * mean_of(it.base * shares.base + it.again * shares.lost);
-    float all = 1.0 - left + facets + base;
-    if (all <= 0.0) return vec3(0.0, 0.0, 1.0);
-    vec3 chances = vec3(1.0 - left, facets, base) / all;
+    float sheen = 0.0;
+    if (has_sheen(it.gloss)) {
+        Sheen above = sheen_of(it.gloss);
+        float below = below_sheen(it.gloss, cosine);
+        facets *= below;
+        base *= below;
+        sheen = left * mean_of(above.color) * albedos(above.first, cosine).y;
+    }
+    float all = 1.0 - left + facets + base + sheen;
+    if (all <= 0.0) return vec4(0.0, 0.0, 1.0, 0.0);
+    vec4 chances = vec4(1.0 - left, facets, base, sheen) / all;
     return chances;
 }
 
@@ -141,7 +150,7 @@ ColorLobe principled_lobe(Principled it, Vertex vertex, vec3 wi, vec3 h) {
     Gloss gloss = it.gloss;
     Shares from = shares_of(vertex, gloss, wi);
     Shares to = shares_of(vertex, gloss, vertex.wo);
-    vec3 chances = lobe_chances(it, vertex.wo.z, to);
+    vec4 chances = lobe_chances(it, vertex.wo.z, to);
     float even = wi.z / PI;
     float pdf = chances.z * even;
     vec3 value = it.again * (from.lost * to.lost * gloss.spread);
@@ -155,6 +164,12 @@ ColorLobe principled_lobe(Principled it, Vertex vertex, vec3 wi, vec3 h) {
         vec3 reflectance = facet_reflectance(it, vertex.material, along, edge);
         value += reflectance * (density * facets_weight(vertex, wi));
         pdf += chances.y * density;
+    }
+    if (has_sheen(gloss)) {
+        Sheen sheen = sheen_of(gloss);
+        value *= min(below_sheen(gloss, wi.z), below_sheen(gloss, vertex.wo.z));
+        pdf += chances.w / (2.0 * PI);
+        value += sheen.color * eval_white_sheen(sheen, vertex.wo, wi, h);
     }
     if (!HAS_COAT || gloss.coat == 0.0) return ColorLobe(value, pdf);
     value *= min(below_coat(gloss, wi.z), below_coat(gloss, vertex.wo.z));
@@ -197,7 +212,7 @@ Scattering sample_principled(Vertex vertex, float choice, vec2 u) {
     Principled it = principled_of(vertex.material);
     Gloss gloss = it.gloss;
     float cosine = vertex.wo.z;
-    vec3 chances = lobe_chances(it, cosine, shares_of(vertex, gloss, vertex.wo));
+    vec4 chances = lobe_chances(it, cosine, shares_of(vertex, gloss, vertex.wo));
     bool is_coat = HAS_COAT && choice < chances.x;
     vec3 h = vec3(0.0, 0.0, 1.0);
     vec3 wi = vec3(-vertex.wo.xy, cosine);
@@ -207,6 +222,7 @@ Scattering sample_principled(Vertex vertex, float choice, vec2 u) {
             float edge = schlick_weight(cosine);
             vec3 reflectance = facet_reflectance(it, vertex.material, cosine, edge);
             vec3 weight = reflectance * below_coat(gloss, cosine) / chances.y;
+            if (HAS_SHEEN) weight *= below_sheen(gloss, cosine);
             if (is_coat) weight = vec3(gloss.coat * (COAT_F0 + (1.0 - COAT_F0) * edge) / chances.x);
             vec3 mirrored = normalized(vertex.frame * wi);
             return Scattering(mirrored, weight, 0.0, 1.0, false);
@@ -215,7 +231,8 @@ Scattering sample_principled(Vertex vertex, float choice, vec2 u) {
         if (HAS_ANISOTROPY && !is_coat) h = normalized(stretched(vertex, h));
         wi = 2.0 * dot(vertex.wo, h) * h - vertex.wo;
     } else {
-        wi = sample_cosine_hemisphere(u);
+        bool is_sheen = HAS_SHEEN && choice < chances.x + chances.y + chances.w;
+        wi = is_sheen ? sample_cone(1.0, u) : sample_cosine_hemisphere(u);
         h = normalized(vertex.wo + wi);
     }
     if (wi.z <= 0.0) return absorbed();

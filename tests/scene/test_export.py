@@ -235,6 +235,14 @@ def test_a_thin_film_is_read_again(tmp_path: Path) -> None:
     assert {key: getattr(found, key) for key in film} == film
 
 
+def test_sheen_is_read_again(tmp_path: Path) -> None:
+    cloth = {"sheen": (0.5, 0.25, 1.0), "sheen_roughness": 0.75}
+    scene = scene_of([mesh(icosphere(1), "paint")], {"paint": PAINT | cloth}, CAMERA)
+    assert left_out(scene) == ""
+    found = read_again(scene, tmp_path)[-1]
+    assert {key: getattr(found, key) for key in cloth} == cloth
+
+
 def test_the_sun_is_read_again(tmp_path: Path) -> None:
     sun = {"direction": [1.0, 2.0, 3.0], "irradiance": [1.0, 2.0, 4.0]}
     read = again(whole(sun=sun, lights={"sun": 0.5}), tmp_path)

@@ -48,6 +48,7 @@ PROBES = {
         "= crossed * crossed",
         "= {} * crossed * crossed",
     ),
+    "HAS_SHEEN": ("bsdfs/sheen.glsl", "value /= max", "value /= {} * max"),
     "HAS_TRANSMISSION": (
         "bsdfs/principled.glsl",
         "share = gloss.transmission",
@@ -141,6 +142,7 @@ NEEDED_TOO = {
     "HAS_CONDUCTOR": {"HAS_MIRROR"},
     "HAS_COAT": {"HAS_PRINCIPLED"},
     "HAS_IRIDESCENCE": {"HAS_PRINCIPLED"},
+    "HAS_SHEEN": {"HAS_PRINCIPLED"},
     "HAS_ANISOTROPY": {"HAS_ROUGH_METAL"},
     "HAS_TRANSMISSION": {"HAS_PRINCIPLED", "HAS_DIELECTRIC"},
     "HAS_MAP": {"HAS_COLOR_MAP"},
@@ -181,7 +183,7 @@ GONE_TOO = {
     "HAS_BACKGROUND": {"HAS_HORIZON"},
     "HAS_PRINCIPLED": {"HAS_COAT", "HAS_TRANSMISSION", "HAS_HOLE", "HAS_COVERAGE_MAP", "HAS_NONE"}
     | {"HAS_EMISSION_MAP", "HAS_GLOSS_MAP", "HAS_NORMAL_MAP", "HAS_TRANSMISSION_MAP"}
-    | {"HAS_IRIDESCENCE"},
+    | {"HAS_IRIDESCENCE", "HAS_SHEEN"},
     "HAS_MAP": {"HAS_COLOR_MAP", "HAS_EMISSION_MAP", "HAS_GLOSS_MAP"}
     | {"HAS_NORMAL_MAP", "HAS_COVERAGE_MAP", "HAS_TRANSMISSION_MAP"},
     "HAS_HOLE": {"HAS_COVERAGE_MAP", "HAS_NONE"},

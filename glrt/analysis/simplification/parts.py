@@ -14,6 +14,7 @@ from glrt.scene.materials.textures import Texture
 from glrt.scene.scene import Scene
 from glrt.scene.schema.validation import validated
 from glrt.scene.shapes.mesh import Mesh
+from glrt.scene.values import BLACK
 
 # Keys of materials without which a kernel has less to do, and their value then.
 FEATURES: Mapping[str, Any] = {
@@ -21,6 +22,7 @@ FEATURES: Mapping[str, Any] = {
     "clearcoat": 0.0,
     "anisotropy": 0.0,
     "iridescence": 0.0,
+    "sheen": BLACK,
     "transmission": 0.0,
     "roughness": 0.0,
     "metallic": 0.0,

@@ -160,6 +160,11 @@ class MaterialWriter:
                 "iridescenceIor": film.ior,
                 "iridescenceThicknessMaximum": film.thickness,
             }
+        if any(material.sheen):
+            found["KHR_materials_sheen"] = {
+                "sheenColorFactor": list(material.sheen),
+                "sheenRoughnessFactor": material.sheen_roughness,
+            }
         if material.transmission:
             crossing: Table = {"transmissionFactor": material.transmission}
             if image := material.textures.get("transmission"):

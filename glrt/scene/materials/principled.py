@@ -85,6 +85,13 @@ class Principled(Opaque):
     iridescence_thickness: Annotated[
         float, Field(ge=0, le=1e4), Editable(unit="nm", slider=(0, 1200))
     ] = Field(400.0, description="thickness of the film, in nanometres")
+    sheen: Annotated[Color, Editable(Cost.RECOMPILE)] = Field(
+        BLACK,
+        description="color of fibres, as of cloth, seen at the edge; not with transmission",
+    )
+    sheen_roughness: Annotated[Fraction, Editable()] = Field(
+        0.3, description="of sheen; its alpha is the square, at least 0.01"
+    )
     color_map: Texture | None = None
     emission_map: Texture | None = None
     metallic_map: Texture | None = None
@@ -126,6 +133,8 @@ class Principled(Opaque):
             iridescence: Number = 0.0,
             iridescence_ior: Number = 1.3,
             iridescence_thickness: Number = 400.0,
+            sheen: Triple = BLACK,
+            sheen_roughness: Number = 0.3,
             emission: Triple | Texture = BLACK,
             group: str | None = None,
             cone: Cone | Mapping[str, Any] | None = None,
@@ -156,6 +165,8 @@ class Principled(Opaque):
             raise ValueError("anisotropy of glass is not known; leave it or transmission out")
         if self.iridescence > 0 and self.transmission > 0:
             raise ValueError("iridescence of glass is not known; leave it or transmission out")
+        if any(self.sheen) and self.transmission > 0:
+            raise ValueError("sheen of glass is not known; leave it or transmission out")
         if self.anisotropy > 0 and self.roughness_map:
             raise ValueError("roughness as a texture with anisotropy is not known; give a number")
         if self.has_holes and self.emits and not (self.is_unlit or self.emission_map):
@@ -181,12 +192,13 @@ class Principled(Opaque):
     @property
     def is_unlit(self) -> bool:
         """Whether it shows its emission and reflects nothing, as in KHR_materials_unlit."""
-        return self.emits and not (any(self.color) or self.specular)
+        return self.emits and not (any(self.color) or self.specular or any(self.sheen))
 
     @property
     def is_matte(self) -> bool:
         """Whether it scatters as a Lambertian surface does: no metal, facets, glass or coat."""
-        return not (self.metallic or self.specular or self.transmission or self.clearcoat)
+        layers = self.transmission or self.clearcoat or any(self.sheen)
+        return not (self.metallic or self.specular or layers)
 
     @property
     def has_holes(self) -> bool:

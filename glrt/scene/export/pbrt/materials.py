@@ -119,6 +119,8 @@ class Materials:
             self._report(f"the anisotropy of {quoted(name)}")
         if material.film:
             self._report(f"the iridescence of {quoted(name)}")
+        if any(material.sheen):
+            self._report(f"the sheen of {quoted(name)}")
         if material.clearcoat:
             self._report(f"the coat of {quoted(name)}")
         if material.transmission:

@@ -19,6 +19,7 @@ _UNREAD = {  # textures that have no counterpart, by extension
     "KHR_materials_specular": ("specularTexture", "specularColorTexture"),
     "KHR_materials_anisotropy": ("anisotropyTexture",),
     "KHR_materials_iridescence": ("iridescenceTexture", "iridescenceThicknessTexture"),
+    "KHR_materials_sheen": ("sheenColorTexture", "sheenRoughnessTexture"),
     "KHR_materials_clearcoat": (
         "clearcoatTexture",
         "clearcoatRoughnessTexture",
@@ -184,6 +185,11 @@ def _layers(
         look.table["iridescence_ior"] = max(value(film, "iridescenceIor", 1.3, 10), 1.0)
         thickness = value(film, "iridescenceThicknessMaximum", 400, 1e4)
         look.table["iridescence_thickness"] = thickness
+    cloth = own("sheen")
+    fibres = look.numbers(cloth.get("sheenColorFactor", [0, 0, 0]), 3, f"{here}: sheenColorFactor")
+    if any(fibres):
+        look.table["sheen"] = fibres
+        look.table["sheen_roughness"] = value(cloth, "sheenRoughnessFactor", 0)
     if transmission:
         image = textures.table(crossed.get("transmissionTexture"), f"{here}: transmissionTexture")
         factor = {**image, "channel": "r", "factor": transmission} if image else transmission
@@ -199,6 +205,8 @@ def _fit_glass(look: Look) -> None:
         _leave_out(look, "anisotropy", "anisotropy of transmission")
     if look.table.get("iridescence"):
         _leave_out(look, "iridescence", "iridescence of transmission")
+    if look.table.pop("sheen", None):
+        look.unread.append("sheen of transmission")
     if isinstance(look.table["metallic"], dict):
         _leave_out(look, "metallic", "metallicRoughnessTexture with transmission")
     if look.table["thin"]:
