@@ -11,7 +11,7 @@ struct ThinFilm {
 
 // Rows of the struct Albedo that follow the albedos hold films: a material names its film by a number below 0.
 bool has_film(Gloss gloss) {
-    return HAS_IRIDESCENCE && gloss.glass < 0;
+    return gloss.glass < 0;
 }
 
 ThinFilm film_of(Gloss gloss) {

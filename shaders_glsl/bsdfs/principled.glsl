@@ -59,7 +59,7 @@ Principled principled_of(Material material) {
 // lies on all of them: on metal over its colour, and on the rest over f0 without `specular`, which is f90.
 vec3 facet_reflectance(Principled it, Material material, float cosine, float edge) {
     vec3 plain = it.f0 + (it.f90 - it.f0) * edge;
-    if (!has_film(it.gloss)) return plain;
+    if (!HAS_IRIDESCENCE || !has_film(it.gloss)) return plain;
     ThinFilm film = film_of(it.gloss);
     float specular = it.gloss.f90;
     vec3 found = vec3(0.0);
@@ -99,7 +99,7 @@ Shares shares_of(Vertex vertex, Gloss gloss, vec3 w) {
     vec2 facets = albedos_around(vertex, gloss, w);
     float lost = 1.0 - facets.x - facets.y;
     float edge = gloss.f90;
-    if (has_film(gloss)) edge = film_of(gloss).edge;
+    if (HAS_IRIDESCENCE && has_film(gloss)) edge = film_of(gloss).edge;
     float taken = gloss.brightest * facets.x + edge * facets.y + gloss.again * lost;
     float left = 1.0 - taken;
     if (HAS_IRIDESCENCE) left = max(left, 0.0);
@@ -126,7 +126,7 @@ vec4 lobe_chances(Principled it, float cosine, Shares shares) {
     float facets = left * mean_of(it.f0 * shares.facets.x + it.f90 * shares.facets.y);
     float base = left * mean_of(it.base * shares.base + it.again * shares.lost);
     float sheen = 0.0;
-    if (has_sheen(it.gloss)) {
+    if (HAS_SHEEN && has_sheen(it.gloss)) {
         Sheen above = sheen_of(it.gloss);
         float below = below_sheen(it.gloss, cosine);
         facets *= below;
@@ -165,7 +165,7 @@ ColorLobe principled_lobe(Principled it, Vertex vertex, vec3 wi, vec3 h) {
         value += reflectance * (density * facets_weight(vertex, wi));
         pdf += chances.y * density;
     }
-    if (has_sheen(gloss)) {
+    if (HAS_SHEEN && has_sheen(gloss)) {
         Sheen sheen = sheen_of(gloss);
         value *= min(below_sheen(gloss, wi.z), below_sheen(gloss, vertex.wo.z));
         pdf += chances.w / (2.0 * PI);

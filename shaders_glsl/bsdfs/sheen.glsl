@@ -9,7 +9,7 @@ struct Sheen {
 };
 
 bool has_sheen(Gloss gloss) {
-    return HAS_SHEEN && gloss.glass < 0;
+    return gloss.glass < 0;
 }
 
 // It follows the thin film of a material among the albedos, in a row of its own, and its albedos follow that.
