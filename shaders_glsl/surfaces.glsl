@@ -9,6 +9,7 @@
 #include "sampling/sobol64.glsl"
 #include "sampling/net.glsl"
 #include "sampling/sampler.glsl"
+#include "sampling/decay.glsl"
 #include "sampling/warp.glsl"
 #include "sampling/angle.glsl"
 #include "sampling/hole_numbers.glsl"

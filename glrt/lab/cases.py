@@ -75,6 +75,8 @@ _ALL = (
     Case("rough", "The light that rough glass keeps", rough_glass.furnace),
     Case("plastic", "The light that white plastic keeps", rough_glass.grazing),
     Case("brushed", "The light that white brushed metal keeps", rough_glass.brushed),
+    Case("soap", "The light that white plastic under a thin film gains", rough_glass.soap),
+    Case("velvet", "The light that white cloth with sheen gains", rough_glass.velvet),
     Case("frosted", "A lamp inside frosted glass", rough_glass.frosted),
     Case("layers", "Layers that are there in part", textures.layers),
     Case("bumps", "A normal bent by an image", textures.bumps),

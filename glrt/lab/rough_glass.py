@@ -1,4 +1,4 @@
-"""Rough glass, white plastic and brushed metal: the light that they keep, a lamp in rough glass."""
+"""Rough glass, plastic, films, cloth, brushed metal: the light that they keep; a lamp in glass."""
 
 import math
 from collections.abc import Iterator
@@ -100,6 +100,83 @@ def _brushed_errors(lab: Lab, scene: Scene, setup: str, count: int) -> Iterator[
             wo = np.tile([sine * math.cos(angle), sine * math.sin(angle), cosine], (count, 1))
             kept = lab.path("kept", {"u": points, "wo": wo}, World(scene), setup=setup)
             yield abs(float(kept.astype(np.float64).mean()) - 1)
+
+
+# The sample viewer of glTF: below a film comes 1 - F of the brightest channel at the half vector.
+_VIEWER = f"""{_SAMPLE}
+    vec3 wi = next.direction;
+    vec3 h = normalized(wo + wi);
+    vec3 reflected = film_reflectance(film_of(gloss_at(0)), vec3(0.04), dot(wo, h));
+    float alpha = vertex.material.alpha;
+    vec3 value = reflected * (pdf_ggx(alpha, wo, h) * ggx_weight(alpha, wo, wi));
+    value += (1.0 - max(reflected.x, max(reflected.y, reflected.z))) * pdf_matte(wi);
+    vec3 colors = next.pdf > 0.0 ? value / next.pdf : vec3(0.0);"""
+_COLORS = f"{_SAMPLE}\n    vec3 colors = next.weight;"
+
+
+def soap(lab: Lab) -> Sweep:
+    """Share of light that white plastic under a film gains: the worst channel of six directions."""
+    x = [50.0, 100.0, 150.0, 200.0, 300.0, 400.0, 600.0, 800.0, 1200.0]
+    count = lab.count(1 << 15, 1 << 14)
+    ways = {"glrt: the base gets what a bound leaves": _COLORS, "sample viewer of glTF": _VIEWER}
+    gains: dict[str, list[float]] = {name: [] for name in ways}
+    for thickness in x:
+        film = {"iridescence": 1.0, "iridescence_ior": 1.4, "iridescence_thickness": thickness}
+        materials = {"p": {"type": "principled", "roughness": ROUGHNESS, **film}}
+        scene = scene_of([sphere([0, 0, -3], 1, "p")], materials)
+        for name, setup in ways.items():
+            gains[name].append(max(_gains(lab, scene, setup, count)))
+    first, *others = gains.items()
+    return Sweep(
+        parameter="thickness of the film (nm)",
+        measure="light gained\n(share, largest)",
+        x=x,
+        chosen=first,
+        others=dict(others),
+        promise="at most 0.005",
+        bound=[0.005] * len(x),
+    )
+
+
+# Sheen that is not held back where it reflects more than all light.
+_FREE = f"""{_COLORS}
+    vec3 wi = next.direction;
+    Sheen sheen = sheen_of(gloss_at(0));
+    float most = max(albedos(sheen.first, wo.z).x, albedos(sheen.first, wi.z).x);
+    float more = eval_white_sheen(sheen, wo, wi, normalized(wo + wi)) * (max(most, 1.0) - 1.0);
+    if (next.pdf > 0.0) colors += more / next.pdf;"""
+
+
+def velvet(lab: Lab) -> Sweep:
+    """Share of light that white cloth gains: the worst of six directions."""
+    x = [0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4]
+    count = lab.count(1 << 16, 1 << 15)
+    ways = {"glrt: held back by its albedo": _COLORS, "sheen as it is": _FREE}
+    gains: dict[str, list[float]] = {name: [] for name in ways}
+    for roughness in x:
+        cloth = {"sheen": [1, 1, 1], "sheen_roughness": roughness}
+        materials = {"p": {"type": "principled", "roughness": 0.8, **cloth}}
+        scene = scene_of([sphere([0, 0, -3], 1, "p")], materials)
+        for name, setup in ways.items():
+            gains[name].append(max(_gains(lab, scene, setup, count)))
+    first, *others = gains.items()
+    return Sweep(
+        parameter="roughness of sheen",
+        measure="light gained\n(share, largest)",
+        x=x,
+        chosen=first,
+        others=dict(others),
+        promise="at most 0.01",
+        bound=[0.01] * len(x),
+    )
+
+
+def _gains(lab: Lab, scene: Scene, setup: str, count: int) -> Iterator[float]:
+    for cosine in (1.0, 0.7, 0.4, 0.1, 0.03, 0.01):
+        wo = np.tile([math.sqrt(1 - cosine**2), 0, cosine], (count, 1))
+        given = {"u": lattice(count), "wo": wo}
+        colors = lab.path("colors", given, World(scene), setup=setup, returns="vec3")
+        yield max(0.0, float(colors.astype(np.float64).mean(axis=0).max()) - 1)
 
 
 INDEX = 1.5

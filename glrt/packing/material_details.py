@@ -16,16 +16,19 @@ from glrt.plan.facts import SceneFacts
 from glrt.scene.materials import facets, gloss
 from glrt.scene.materials.conductors import Conductor
 from glrt.scene.materials.dielectric import Dielectric
-from glrt.scene.materials.facets import STEPS, facet_loss
+from glrt.scene.materials.facets import STEPS, facet_loss, mean_loss
 from glrt.scene.materials.gloss import (
     ROUGHNESS_STEPS,
     FacetShares,
     facet_shares,
     shares_around,
     shares_by_step,
+    turn_weights,
 )
 from glrt.scene.materials.metal import Metal
 from glrt.scene.materials.principled import Principled
+from glrt.scene.materials.sheen import sheen_albedos, sheen_alpha
+from glrt.scene.materials.thin_film import ThinFilm, reflectance_bound
 
 Array = np.ndarray[Any, Any]
 ALBEDOS = STEPS  # rows of the struct Albedo for each kind of facets
@@ -63,10 +66,12 @@ def pack_facets(facts: SceneFacts) -> dict[str, Array]:
     albedos: Albedos = []
     glasses = _pack_glasses(facts, albedos)
     gloss = _pack_gloss(facts, albedos)
-    return {"Glass": glasses, "Gloss": gloss, "Albedo": _rows_of(albedos)}
+    tables = _rows_of(albedos)
+    return {"Glass": glasses, "Gloss": gloss, "Albedo": np.concatenate([tables, *_layers(facts)])}
 
 
 Albedos = list[tuple[Array, Array]]  # two albedos at each step
+Finished = tuple[str, Principled, FacetShares]  # a material with its name and one row's shares
 
 
 def _pack_glasses(facts: SceneFacts, albedos: Albedos) -> Array:
@@ -161,7 +166,73 @@ def _pack_gloss(facts: SceneFacts, albedos: Albedos) -> Array:
         row["again"] = again = _again(max(it.head_on), it.specular, shares.kept)
         left = 1 - _taken(max(it.head_on), it.specular, again, shares)
         row["even_base"] = 1 / left if left > 0 else 0.0
+    _put_layers(facts, of_all, rows, ALBEDOS * len(albedos))
     return rows
+
+
+def _put_layers(facts: SceneFacts, of_all: list[Finished], rows: Array, first: int) -> None:
+    """Change rows of the struct Gloss with films or sheen, whose own rows begin at `first`."""
+    row_of = dict[str, int]()
+    for name, own in zip(_layered(facts), _layers(facts), strict=True):
+        row_of[name] = first
+        first += len(own)
+    for row, (name, it, shares) in zip(rows, of_all, strict=True):
+        if name in row_of:
+            row["glass"] = -1 - row_of[name]
+            row["brightest"], _ = factors = _bound(it)
+            tables = _tables(it, shares)
+            weights = turn_weights(it.stretch) if len(tables) > 1 else np.ones(1)
+            left = _mean_left(tables, weights, (*factors, float(row["again"])))
+            row["even_base"] = 1 / left if left > 0 else 0.0
+
+
+def _bound(material: Principled) -> tuple[float, float]:
+    """Return f0 and f90 that bound the reflectance of facets that are partly under a film."""
+    film, specular = material.film, material.specular
+    if film is None or specular == 0:
+        return max(material.head_on), specular
+    share = material.iridescence * film.presence
+    red, green, blue = (each / specular for each in material.head_on)
+    head, edge = reflectance_bound(film, (red, green, blue))
+    f0 = max(material.head_on) + share * (specular * head - max(material.head_on))
+    return f0, specular + share * specular * (edge - 1)
+
+
+def _mean_left(tables: list[FacetShares], weights: Array, factors: tuple[float, ...]) -> float:
+    """Return the share of even light that facets under a film leave.
+
+    `factors` are those of the light by `head_on`, by `grazing` and lost. At grazing angles they
+    bound what is taken by more than all light.
+    """
+    taken = [
+        np.array(factors) @ [it.head_on, it.grazing, 1 - it.head_on - it.grazing] for it in tables
+    ]
+    return float(weights @ [mean_loss(np.minimum(each, 1)) for each in taken])
+
+
+def _layered(facts: SceneFacts) -> dict[str, Principled]:
+    found = _principled(facts)
+    return {name: it for name, it in found.items() if it.film or any(it.sheen)}
+
+
+def _layers(facts: SceneFacts) -> list[Array]:
+    """Return rows of the struct Albedo for each material with a thin film or sheen.
+
+    The first is the film, the second the sheen, and albedos of sheen follow.
+    """
+    return [_layer(it) for it in _layered(facts).values()]
+
+
+def _layer(material: Principled) -> Array:
+    rows = np.zeros(2, STRUCTS["Albedo"])
+    film = material.film or ThinFilm(1.0, 0.0)
+    share = material.iridescence * film.presence
+    rows[0] = share, film.ior, film.micrometres, _bound(material)[1]
+    alpha = sheen_alpha(material.sheen_roughness)
+    rows[1] = *material.sheen, 0.5 / alpha
+    if not any(material.sheen):
+        return np.concatenate([rows, _rows_of([(np.zeros(ALBEDOS + 1),) * 2])])
+    return np.concatenate([rows, _rows_of([sheen_albedos(alpha)])])
 
 
 def _again(f0: float, f90: float, kept: float) -> float:

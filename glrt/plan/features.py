@@ -131,6 +131,8 @@ class Needs:
     has_anisotropy: bool = _made_of(
         "material with anisotropy", "anisotropy", lambda it: it.anisotropic
     )
+    has_iridescence: bool = _made_of("thin film", "iridescence", lambda it: it.iridescent)
+    has_sheen: bool = _made_of("surface with sheen", "sheen", lambda it: it.sheened)
     has_rough_glass: bool = _row(
         lambda it: it.traits.follows and it.traits.has_rough and bool(it.facts.rough_glasses),
         "rough glass",

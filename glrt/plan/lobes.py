@@ -32,6 +32,16 @@ class LobeFacts:
         return [n for n, it in found if isinstance(it, Metal | Principled) and it.anisotropy > 0]
 
     @property
+    def iridescent(self) -> list[str]:
+        """Names of the principled materials under a thin film."""
+        return [name for name, it in self._principled.items() if it.film]
+
+    @property
+    def sheened(self) -> list[str]:
+        """Names of the principled materials with sheen."""
+        return [name for name, it in self._principled.items() if any(it.sheen)]
+
+    @property
     def transmitting(self) -> list[str]:
         """Names of the principled materials that are partly glass."""
         return [name for name, it in self._principled.items() if it.glass]

@@ -126,6 +126,8 @@ def _choice(found: SceneFacts) -> dict[str, bool | int]:
         "BOUNDARIES": len(found.media.bounds),
         "HAS_COAT": bool(found.lobes.coated),
         "HAS_ANISOTROPY": bool(found.lobes.anisotropic),
+        "HAS_IRIDESCENCE": bool(found.lobes.iridescent),
+        "HAS_SHEEN": bool(found.lobes.sheened),
         "HAS_ROUGH_GLASS": bool(found.rough_glasses),
         "HAS_ATTENUATION": bool(found.tinted),
         "HAS_NESTED": bool(found.nested),

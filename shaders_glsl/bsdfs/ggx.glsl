@@ -41,6 +41,14 @@ vec3 sample_ggx_normal(float alpha, vec3 wo, vec2 u) {
     return normal;
 }
 
+// The weight of f90 against f0 in Schlick's reflectance.
+float schlick_weight(float cosine) {
+    float x = max(1.0 - cosine, 0.0);
+    float x2 = x * x;
+    float weight = x2 * x2 * x;
+    return weight;
+}
+
 // Facets of a vertex may be rougher along frame[0] than across it (KHR_materials_anisotropy of glTF). Their alpha
 // across is that of the material, and k = vertex.stretch times as much along it. The formulas of even facets then hold
 // for directions with k w.x in place of w.x, and for half vectors with h.x / k; the distribution is divided by k

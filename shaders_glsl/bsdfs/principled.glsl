@@ -5,6 +5,8 @@
 //   the base, (1 - E(wo)) (1 - E(wi)) / mean(1 - E) of the dielectric facets (Kelemen and Szirmay-Kalos, "A
 //   Microfacet Based Coupled Specular-Matte BRDF Model with Importance Sampling", 2001);
 //   all layers below the coat, the lesser of 1 - E(wo) and 1 - E(wi) of the coat.
+// Under a thin film E is of a bound of its reflectance. Sheen lies between the coat and the facets, and lets light
+// through by the rule of the coat.
 // Light that facets lose to each other comes back as one lobe (Kulla and Conty 2017, as in rough_dielectric.glsl).
 // Smooth facets are deltas: they are sampled, but have neither a value nor a density.
 
@@ -25,14 +27,7 @@ Material met_part(Material material, float u) {
     return glass;
 }
 
-float schlick_weight(float cosine) {
-    float x = max(1.0 - cosine, 0.0);
-    float x2 = x * x;
-    float weight = x2 * x2 * x;
-    return weight;
-}
-
-// The facets of a surface, metal and dielectric together, and its base.
+// The facets of a surface, metal and dielectric together, and its base. A thin film on them is not in f0 and f90.
 struct Principled {
     Gloss gloss;
     vec3 f0;
@@ -60,6 +55,25 @@ Principled principled_of(Material material) {
     return Principled(gloss, f0, f90, again, base);
 }
 
+// Reflectance of facets for light at an angle to their normal; edge: the weight of Schlick at that angle. A film
+// lies on all of them: on metal over its colour, and on the rest over f0 without `specular`, which is f90.
+vec3 facet_reflectance(Principled it, Material material, float cosine, float edge) {
+    vec3 plain = it.f0 + (it.f90 - it.f0) * edge;
+    if (!HAS_IRIDESCENCE || !has_film(it.gloss)) return plain;
+    ThinFilm film = film_of(it.gloss);
+    float specular = it.gloss.f90;
+    vec3 found = vec3(0.0);
+    if (material.metallic < 1.0 && specular > 0.0) {
+        found = specular * film_reflectance(film, it.gloss.f0 / specular, cosine);
+    }
+    if (material.metallic > 0.0) {
+        vec3 of_metal = film_reflectance(film, material.color, cosine);
+        found += material.metallic * (of_metal - found);
+    }
+    vec3 reflectance = plain + film.share * (found - plain);
+    return reflectance;
+}
+
 // The factors of f0 and f90 in the light that facets reflect from a direction. Facets that are rougher along x have
 // tables at even steps of |y| / (r |x| + |y|), where r is the root of how much rougher they are.
 vec2 albedos_around(Vertex vertex, Gloss gloss, vec3 w) {
@@ -84,8 +98,11 @@ struct Shares {
 Shares shares_of(Vertex vertex, Gloss gloss, vec3 w) {
     vec2 facets = albedos_around(vertex, gloss, w);
     float lost = 1.0 - facets.x - facets.y;
-    float taken = gloss.brightest * facets.x + gloss.f90 * facets.y + gloss.again * lost;
+    float edge = gloss.f90;
+    if (HAS_IRIDESCENCE && has_film(gloss)) edge = film_of(gloss).edge;
+    float taken = gloss.brightest * facets.x + edge * facets.y + gloss.again * lost;
     float left = 1.0 - taken;
+    if (HAS_IRIDESCENCE) left = max(left, 0.0);
     return Shares(facets, lost, left);
 }
 
@@ -102,15 +119,23 @@ float mean_of(vec3 color) {
     return mean;
 }
 
-// Chances that a sample is of the coat, of the facets, or of the base with the light that facets lose. They are about
-// the shares of these in light that comes from wo.
-vec3 lobe_chances(Principled it, float cosine, Shares shares) {
+// Chances that a sample is of the coat, of the facets, of the base with the light that facets lose, or of sheen. They
+// are about the shares of these in light that comes from wo.
+vec4 lobe_chances(Principled it, float cosine, Shares shares) {
     float left = below_coat(it.gloss, cosine);
     float facets = left * mean_of(it.f0 * shares.facets.x + it.f90 * shares.facets.y);
     float base = left * mean_of(it.base * shares.base + it.again * shares.lost);
-    float all = 1.0 - left + facets + base;
-    if (all <= 0.0) return vec3(0.0, 0.0, 1.0);
-    vec3 chances = vec3(1.0 - left, facets, base) / all;
+    float sheen = 0.0;
+    if (HAS_SHEEN && has_sheen(it.gloss)) {
+        Sheen above = sheen_of(it.gloss);
+        float below = below_sheen(it.gloss, cosine);
+        facets *= below;
+        base *= below;
+        sheen = left * mean_of(above.color) * albedos(above.first, cosine).y;
+    }
+    float all = 1.0 - left + facets + base + sheen;
+    if (all <= 0.0) return vec4(0.0, 0.0, 1.0, 0.0);
+    vec4 chances = vec4(1.0 - left, facets, base, sheen) / all;
     return chances;
 }
 
@@ -125,18 +150,26 @@ ColorLobe principled_lobe(Principled it, Vertex vertex, vec3 wi, vec3 h) {
     Gloss gloss = it.gloss;
     Shares from = shares_of(vertex, gloss, wi);
     Shares to = shares_of(vertex, gloss, vertex.wo);
-    vec3 chances = lobe_chances(it, vertex.wo.z, to);
+    vec4 chances = lobe_chances(it, vertex.wo.z, to);
     float even = wi.z / PI;
     float pdf = chances.z * even;
     vec3 value = it.again * (from.lost * to.lost * gloss.spread);
     value += it.base * (from.base * to.base * gloss.even_base);
     value *= even;
     float alpha = vertex.material.alpha;
-    float edge = schlick_weight(dot(vertex.wo, h));
+    float along = dot(vertex.wo, h);
+    float edge = schlick_weight(along);
     if (alpha > 0.0) {
         float density = pdf_facets(vertex, h);
-        value += (it.f0 + (it.f90 - it.f0) * edge) * (density * facets_weight(vertex, wi));
+        vec3 reflectance = facet_reflectance(it, vertex.material, along, edge);
+        value += reflectance * (density * facets_weight(vertex, wi));
         pdf += chances.y * density;
+    }
+    if (HAS_SHEEN && has_sheen(gloss)) {
+        Sheen sheen = sheen_of(gloss);
+        value *= min(below_sheen(gloss, wi.z), below_sheen(gloss, vertex.wo.z));
+        pdf += chances.w / (2.0 * PI);
+        value += sheen.color * eval_white_sheen(sheen, vertex.wo, wi, h);
     }
     if (!HAS_COAT || gloss.coat == 0.0) return ColorLobe(value, pdf);
     value *= min(below_coat(gloss, wi.z), below_coat(gloss, vertex.wo.z));
@@ -179,7 +212,7 @@ Scattering sample_principled(Vertex vertex, float choice, vec2 u) {
     Principled it = principled_of(vertex.material);
     Gloss gloss = it.gloss;
     float cosine = vertex.wo.z;
-    vec3 chances = lobe_chances(it, cosine, shares_of(vertex, gloss, vertex.wo));
+    vec4 chances = lobe_chances(it, cosine, shares_of(vertex, gloss, vertex.wo));
     bool is_coat = HAS_COAT && choice < chances.x;
     vec3 h = vec3(0.0, 0.0, 1.0);
     vec3 wi = vec3(-vertex.wo.xy, cosine);
@@ -187,7 +220,9 @@ Scattering sample_principled(Vertex vertex, float choice, vec2 u) {
         float alpha = is_coat ? gloss.coat_alpha : vertex.material.alpha;
         if (alpha == 0.0) {
             float edge = schlick_weight(cosine);
-            vec3 weight = (it.f0 + (it.f90 - it.f0) * edge) * below_coat(gloss, cosine) / chances.y;
+            vec3 reflectance = facet_reflectance(it, vertex.material, cosine, edge);
+            vec3 weight = reflectance * below_coat(gloss, cosine) / chances.y;
+            if (HAS_SHEEN) weight *= below_sheen(gloss, cosine);
             if (is_coat) weight = vec3(gloss.coat * (COAT_F0 + (1.0 - COAT_F0) * edge) / chances.x);
             vec3 mirrored = normalized(vertex.frame * wi);
             return Scattering(mirrored, weight, 0.0, 1.0, false);
@@ -196,7 +231,8 @@ Scattering sample_principled(Vertex vertex, float choice, vec2 u) {
         if (HAS_ANISOTROPY && !is_coat) h = normalized(stretched(vertex, h));
         wi = 2.0 * dot(vertex.wo, h) * h - vertex.wo;
     } else {
-        wi = sample_cosine_hemisphere(u);
+        bool is_sheen = HAS_SHEEN && choice < chances.x + chances.y + chances.w;
+        wi = is_sheen ? sample_cone(1.0, u) : sample_cosine_hemisphere(u);
         h = normalized(vertex.wo + wi);
     }
     if (wi.z <= 0.0) return absorbed();

@@ -32,15 +32,16 @@ struct Gloss {
     float kept;          // share of even light that white facets do not lose to each other
     float spread;        // 1 / (1 - kept); 0 where nothing is lost
     float again;         // share of the light lost by dielectric facets that comes back, in the brightest channel
-    float brightest;     // largest channel of f0
+    float brightest;     // largest channel of f0; under a thin film, f0 of a bound of the reflectance
     float transmission;  // chance that a path meets its glass
-    int glass;           // its row among the materials
+    int glass;           // its row among the materials; -1 - the row of film and sheen among the albedos
     int turns;           // steps of a quarter turn between the albedos of facets; 0: facets are alike all round
     float even_base;     // 1 over the share of even light that dielectric facets leave
 };
 
 // Directional albedos of facets, which scatter once: at both ends of a step of the root of the cosine. The two numbers
 // of rough glass are for light from outside and from inside; those of gloss are the factors of f0 and f90.
+// Rows after them hold thin films and sheen: bsdfs/iridescence.glsl, bsdfs/sheen.glsl.
 struct Albedo {
     float one;
     float other;

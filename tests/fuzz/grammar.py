@@ -85,6 +85,11 @@ PRINCIPLED = {
     "clearcoat": FRACTIONS,
     "anisotropy": FRACTIONS,
     "anisotropy_rotation": st.floats(-720, 720),
+    "sheen": COLORS,
+    "sheen_roughness": FRACTIONS,
+    "iridescence": FRACTIONS,
+    "iridescence_ior": st.floats(1, 4),
+    "iridescence_thickness": st.floats(0, 2000),
 }
 MATERIALS = st.one_of(
     tables(type=st.just("lambertian"), color=COLORS),

@@ -47,7 +47,7 @@ SLOW = (  # more than a second each, or many kernels
     *("crossing", "blur"),
     *("flicker", "frosted", "denoised", "uncovered", "lag", "bright"),
     *("drawn", "sun", "frames", "bumps", "plastic", "fireflies", "ior"),
-    "brushed",
+    *("brushed", "soap", "velvet"),
 )
 SWEEP = Sweep(
     parameter="size",

@@ -79,6 +79,8 @@ MATERIALS: dict[str, dict[str, Any]] = {
     "water": glass(1.33, priority=1),
     "plastic": {"type": "principled"},
     "painted": {"type": "principled", "clearcoat": 1.0},
+    "velvet": {"type": "principled", "sheen": [0.5, 0.5, 0.5]},
+    "soapy": {"type": "principled", "iridescence": 1.0},
     "wax": {"type": "principled", "transmission": 0.5, "roughness": 0},
     "checked": {"type": "lambertian", "color": _CHECKER},
     "glowing": {"type": "principled", "emission": _CHECKER},
@@ -140,8 +142,9 @@ def needs_with(flags: set[str]) -> Needs:
     made_of = {"HAS_MIRROR": "mirror", "HAS_ROUGH_METAL": "rough", "HAS_DIELECTRIC": "glass"}
     made_of |= {"HAS_ROUGH_GLASS": "frosted", "HAS_PANE": "pane", "HAS_ANISOTROPY": "brushed"}
     made_of |= {"HAS_PRINCIPLED": "plastic", "HAS_COAT": "painted", "HAS_TRANSMISSION": "wax"}
-    made_of |= {"HAS_ATTENUATION": "tinted", "HAS_NESTED": "water"}
+    made_of |= {"HAS_ATTENUATION": "tinted", "HAS_NESTED": "water", "HAS_IRIDESCENCE": "soapy"}
     made_of |= {"HAS_NONE": "none", "HAS_COLOR_MAP": "checked", "HAS_EMISSION_MAP": "glowing"}
+    made_of |= {"HAS_SHEEN": "velvet"}
     made_of |= {"HAS_GLOSS_MAP": "worn", "HAS_NORMAL_MAP": "bumpy"}
     made_of |= {"HAS_COVERAGE_MAP": "torn", "HAS_HOLE": "gauze", "HAS_TRANSMISSION_MAP": "label"}
     objects = [body(name) for flag, name in made_of.items() if flag in flags]

@@ -227,6 +227,22 @@ def test_anisotropy_is_read_again_and_its_direction_on_a_box_is_reported(tmp_pat
     assert [it.anisotropy for it in read_again(scene, tmp_path)] == [0.5, 0.25]
 
 
+def test_a_thin_film_is_read_again(tmp_path: Path) -> None:
+    film = {"iridescence": 0.5, "iridescence_ior": 1.75, "iridescence_thickness": 250.0}
+    scene = scene_of([mesh(icosphere(1), "paint")], {"paint": PAINT | film}, CAMERA)
+    assert left_out(scene) == ""
+    found = read_again(scene, tmp_path)[-1]
+    assert {key: getattr(found, key) for key in film} == film
+
+
+def test_sheen_is_read_again(tmp_path: Path) -> None:
+    cloth = {"sheen": (0.5, 0.25, 1.0), "sheen_roughness": 0.75}
+    scene = scene_of([mesh(icosphere(1), "paint")], {"paint": PAINT | cloth}, CAMERA)
+    assert left_out(scene) == ""
+    found = read_again(scene, tmp_path)[-1]
+    assert {key: getattr(found, key) for key in cloth} == cloth
+
+
 def test_the_sun_is_read_again(tmp_path: Path) -> None:
     sun = {"direction": [1.0, 2.0, 3.0], "irradiance": [1.0, 2.0, 4.0]}
     read = again(whole(sun=sun, lights={"sun": 0.5}), tmp_path)

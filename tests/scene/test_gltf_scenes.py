@@ -82,6 +82,10 @@ NUMBERS: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
         extended("anisotropy", anisotropyStrength=0.5, anisotropyRotation=1.75 * math.pi),
         {"anisotropy": 0.5, "anisotropy_rotation": pytest.approx(-45)},
     ),
+    "a film": (
+        extended("iridescence", iridescenceFactor=0.5, iridescenceThicknessMaximum=250),
+        {"iridescence": 0.5, "iridescence_ior": 1.3, "iridescence_thickness": 250},
+    ),
 }
 
 

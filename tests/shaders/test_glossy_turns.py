@@ -30,7 +30,12 @@ KINDS: dict[str, dict[str, Any]] = {
     },
 }
 BRUSHED = "brushed"  # of a kernel of its own, so its cases are slow
-KINDS[BRUSHED] = {**KINDS["coated"], "anisotropy": 0.7}
+KINDS[BRUSHED] = {
+    **KINDS["coated"],
+    "anisotropy": 0.7,
+    "iridescence": 0.9,
+    "sheen": [0.5, 0.4, 0.3],
+}
 kinds = pytest.mark.parametrize(
     "kind", [pytest.param(k, marks=pytest.mark.slow) if k == BRUSHED else k for k in KINDS]
 )

@@ -22,7 +22,13 @@ STILL_LIFE = {
     **MATERIALS,
     "mirror": {"type": "metal", "color": [0.9, 0.8, 0.7]},
     "brass": {"type": "metal", "color": [0.9, 0.7, 0.3], "roughness": 0.4},
-    "brushed": {"type": "principled", "metallic": 0.8, "anisotropy": 0.7},
+    "brushed": {
+        "type": "principled",
+        "metallic": 0.8,
+        "anisotropy": 0.7,
+        "iridescence": 0.8,
+        "sheen": [0.5, 0.2, 0.3],
+    },
 }
 CONSTANTS = {"ambient": 0.1, "diffuse": 0.8, "specular": 0.5, "exponent": 20}
 CHECKER = {"checker": [0.25, 0.75]}

@@ -43,6 +43,12 @@ PROBES = {
     "HAS_PRINCIPLED": ("bsdfs/principled.glsl", "chances.z * even", "{} * chances.z * even"),
     "HAS_COAT": ("bsdfs/principled.glsl", "chances.x * density", "{} * chances.x * density"),
     "HAS_ANISOTROPY": ("bsdfs/ggx.glsl", "vertex.stretch * w.x", "{} * vertex.stretch * w.x"),
+    "HAS_IRIDESCENCE": (
+        "bsdfs/iridescence.glsl",
+        "= crossed * crossed",
+        "= {} * crossed * crossed",
+    ),
+    "HAS_SHEEN": ("bsdfs/sheen.glsl", "value /= max", "value /= {} * max"),
     "HAS_TRANSMISSION": (
         "bsdfs/principled.glsl",
         "share = gloss.transmission",
@@ -135,6 +141,8 @@ NEEDED_TOO = {
     "HAS_TREE": {"HAS_DISK"},
     "HAS_CONDUCTOR": {"HAS_MIRROR"},
     "HAS_COAT": {"HAS_PRINCIPLED"},
+    "HAS_IRIDESCENCE": {"HAS_PRINCIPLED"},
+    "HAS_SHEEN": {"HAS_PRINCIPLED"},
     "HAS_ANISOTROPY": {"HAS_ROUGH_METAL"},
     "HAS_TRANSMISSION": {"HAS_PRINCIPLED", "HAS_DIELECTRIC"},
     "HAS_MAP": {"HAS_COLOR_MAP"},
@@ -174,7 +182,8 @@ GONE_TOO = {
     "HAS_SPHERE": {"HAS_SPHERE_LIGHT", "HAS_SPHERE_TREE"},
     "HAS_BACKGROUND": {"HAS_HORIZON"},
     "HAS_PRINCIPLED": {"HAS_COAT", "HAS_TRANSMISSION", "HAS_HOLE", "HAS_COVERAGE_MAP", "HAS_NONE"}
-    | {"HAS_EMISSION_MAP", "HAS_GLOSS_MAP", "HAS_NORMAL_MAP", "HAS_TRANSMISSION_MAP"},
+    | {"HAS_EMISSION_MAP", "HAS_GLOSS_MAP", "HAS_NORMAL_MAP", "HAS_TRANSMISSION_MAP"}
+    | {"HAS_IRIDESCENCE", "HAS_SHEEN"},
     "HAS_MAP": {"HAS_COLOR_MAP", "HAS_EMISSION_MAP", "HAS_GLOSS_MAP"}
     | {"HAS_NORMAL_MAP", "HAS_COVERAGE_MAP", "HAS_TRANSMISSION_MAP"},
     "HAS_HOLE": {"HAS_COVERAGE_MAP", "HAS_NONE"},

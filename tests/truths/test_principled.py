@@ -91,9 +91,9 @@ def room() -> Scene:
         "paint": principled(
             color=[0.6, 0.1, 0.1], metallic=0.5, clearcoat=1.0, clearcoat_roughness=0.0
         ),
-        "plastic": principled(color=[0.1, 0.3, 0.7], roughness=0.3),
+        "plastic": principled(color=[0.1, 0.3, 0.7], roughness=0.3, iridescence=1.0),
         "gold": principled(color=[1.0, 0.8, 0.4], metallic=1.0, roughness=0.5, anisotropy=0.6),
-        "wax": principled(color=[0.9, 0.8, 0.7], roughness=0.0),
+        "wax": principled(color=[0.9, 0.8, 0.7], roughness=0.0, sheen=[0.5, 0.6, 0.7]),
     }
     objects = [plane([0, 0, 0], [0, 1, 0], "m"), quad([-1, 2.5, -1], [2, 0, 0], [0, 0, 2], "lamp")]
     for k, name in enumerate(("paint", "plastic", "gold", "wax")):

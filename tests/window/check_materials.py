@@ -55,6 +55,9 @@ def a_principled_surface_is_edited_live(hand: Hand) -> None:
         ("clearcoat roughness", 0.0, Cost.RESTART),
         ("anisotropy", 0.5, Cost.RECOMPILE),
         ("anisotropy rotation", 90.0, Cost.RESTART),
+        ("iridescence", 1.0, Cost.RECOMPILE),
+        ("iridescence ior", 1.8, Cost.RESTART),
+        ("iridescence thickness", 250.0, Cost.RESTART),
         ("ior", 2.0, Cost.RESTART),
     ):
         before, hand.session.last_cost = hand.pixels(), None
@@ -63,6 +66,13 @@ def a_principled_surface_is_edited_live(hand: Hand) -> None:
         assert getattr(its(hand), name.replace(" ", "_")) == value
         assert hand.session.last_cost is most, name
         assert name == "ior" or (hand.pixels() != before).any()  # metal has none
+    hand.session.last_cost = None
+    move(hand, "sheen##material it/##X", 0.5)
+    hand.settle()
+    assert (its(hand).sheen, hand.session.last_cost) == ((0.5, 0, 0), Cost.RECOMPILE)
+    move(hand, "sheen roughness##material it", 0.75)
+    hand.settle()
+    assert (its(hand).sheen_roughness, hand.session.last_cost) == (0.75, Cost.RESTART)
     move(hand, "transmission##material it", 0.5)  # with a coat: refused, and said
     hand.settle()
     assert "a coat over transmission" in hand.session.problem

@@ -14,12 +14,15 @@ from glrt.scene.materials.textures import Texture
 from glrt.scene.scene import Scene
 from glrt.scene.schema.validation import validated
 from glrt.scene.shapes.mesh import Mesh
+from glrt.scene.values import BLACK
 
 # Keys of materials without which a kernel has less to do, and their value then.
 FEATURES: Mapping[str, Any] = {
     "normal": None,
     "clearcoat": 0.0,
     "anisotropy": 0.0,
+    "iridescence": 0.0,
+    "sheen": BLACK,
     "transmission": 0.0,
     "roughness": 0.0,
     "metallic": 0.0,

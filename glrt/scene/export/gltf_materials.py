@@ -154,6 +154,17 @@ class MaterialWriter:
         if material.clearcoat:
             rough = {"clearcoatRoughnessFactor": material.clearcoat_roughness}
             found["KHR_materials_clearcoat"] = {"clearcoatFactor": material.clearcoat, **rough}
+        if film := material.film:
+            found["KHR_materials_iridescence"] = {
+                "iridescenceFactor": material.iridescence,
+                "iridescenceIor": film.ior,
+                "iridescenceThicknessMaximum": film.thickness,
+            }
+        if any(material.sheen):
+            found["KHR_materials_sheen"] = {
+                "sheenColorFactor": list(material.sheen),
+                "sheenRoughnessFactor": material.sheen_roughness,
+            }
         if material.transmission:
             crossing: Table = {"transmissionFactor": material.transmission}
             if image := material.textures.get("transmission"):

@@ -93,12 +93,17 @@ def shares_around(alpha: float, stretch: float) -> tuple[FacetShares, ...]:
 
 def _mean_around(alpha: float, stretch: float) -> FacetShares:
     """Return the mean of `shares_around` over a quarter turn; they are linear between steps."""
+    weights = turn_weights(stretch)
     shares = shares_around(alpha, stretch)
-    angle = (np.arange(10_000) + 0.5) / 10_000 * math.pi / 2
-    place = TURNS * np.sin(angle) / (np.sin(angle) + math.sqrt(stretch) * np.cos(angle))
-    weights = np.maximum(1 - np.abs(place[:, None] - np.arange(TURNS + 1)), 0).mean(axis=0)
     tables = ([getattr(it, name) for it in shares] for name in ("head_on", "grazing"))
     return FacetShares.of(*(weights @ np.array(table) for table in tables))
+
+
+def turn_weights(stretch: float) -> Array:
+    """Return the weights of `shares_around` in their mean over all directions, (TURNS + 1,)."""
+    angle = (np.arange(10_000) + 0.5) / 10_000 * math.pi / 2
+    place = TURNS * np.sin(angle) / (np.sin(angle) + math.sqrt(stretch) * np.cos(angle))
+    return np.asarray(np.maximum(1 - np.abs(place[:, None] - np.arange(TURNS + 1)), 0).mean(axis=0))
 
 
 def _drawn(alpha: float, stretch: float, cosine: Array, angle: float) -> tuple[Array, Array]:

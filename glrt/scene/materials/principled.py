@@ -17,6 +17,7 @@ from glrt.scene.materials.base import (
 )
 from glrt.scene.materials.dielectric import Dielectric
 from glrt.scene.materials.textures import NormalTexture, Texture, data_texture
+from glrt.scene.materials.thin_film import ThinFilm
 from glrt.scene.values import BLACK, WHITE, Color, Fraction, Length, Number, Triple
 from glrt.settings import Cost, Editable
 
@@ -75,6 +76,22 @@ class Principled(Opaque):
     alpha_cutoff: Annotated[Fraction | None, Editable()] = Field(
         None, description="the surface is there where alpha is at least this, and nowhere else"
     )
+    iridescence: Annotated[Fraction, Editable(Cost.RECOMPILE)] = Field(
+        0.0, description="share under a thin film in the colors of soap; not with transmission"
+    )
+    iridescence_ior: Annotated[float, Field(ge=1, le=10), Editable(slider=(1, 3))] = Field(
+        1.3, description="index of refraction of the film"
+    )
+    iridescence_thickness: Annotated[
+        float, Field(ge=0, le=1e4), Editable(unit="nm", slider=(0, 1200))
+    ] = Field(400.0, description="thickness of the film, in nanometres")
+    sheen: Annotated[Color, Editable(Cost.RECOMPILE)] = Field(
+        BLACK,
+        description="color of fibres, as of cloth, seen at the edge; not with transmission",
+    )
+    sheen_roughness: Annotated[Fraction, Editable()] = Field(
+        0.3, description="of sheen; its alpha is the square, at least 0.01"
+    )
     color_map: Texture | None = None
     emission_map: Texture | None = None
     metallic_map: Texture | None = None
@@ -113,6 +130,11 @@ class Principled(Opaque):
             clearcoat_roughness: Number = 0.1,
             normal: NormalTexture | Mapping[str, Any] | None = None,
             alpha_cutoff: Number | None = None,
+            iridescence: Number = 0.0,
+            iridescence_ior: Number = 1.3,
+            iridescence_thickness: Number = 400.0,
+            sheen: Triple = BLACK,
+            sheen_roughness: Number = 0.3,
             emission: Triple | Texture = BLACK,
             group: str | None = None,
             cone: Cone | Mapping[str, Any] | None = None,
@@ -128,12 +150,23 @@ class Principled(Opaque):
         """Alpha in the direction of greater roughness over alpha across it; 1: alike all round."""
         return stretch_of(self.facet_alpha, self.anisotropy)
 
+    @property
+    def film(self) -> ThinFilm | None:
+        """The thin film on its facets; None if it has none."""
+        if not self.iridescence:
+            return None
+        return ThinFilm(self.iridescence_ior, self.iridescence_thickness)
+
     @model_validator(mode="after")
     def _has_glass_that_can_be(self) -> Self:
         if self.transmission > 0 and self.clearcoat > 0:
             raise ValueError("a coat over transmission is not known; leave one of the two out")
         if self.anisotropy > 0 and self.transmission > 0:
             raise ValueError("anisotropy of glass is not known; leave it or transmission out")
+        if self.iridescence > 0 and self.transmission > 0:
+            raise ValueError("iridescence of glass is not known; leave it or transmission out")
+        if any(self.sheen) and self.transmission > 0:
+            raise ValueError("sheen of glass is not known; leave it or transmission out")
         if self.anisotropy > 0 and self.roughness_map:
             raise ValueError("roughness as a texture with anisotropy is not known; give a number")
         if self.has_holes and self.emits and not (self.is_unlit or self.emission_map):
@@ -159,12 +192,13 @@ class Principled(Opaque):
     @property
     def is_unlit(self) -> bool:
         """Whether it shows its emission and reflects nothing, as in KHR_materials_unlit."""
-        return self.emits and not (any(self.color) or self.specular)
+        return self.emits and not (any(self.color) or self.specular or any(self.sheen))
 
     @property
     def is_matte(self) -> bool:
         """Whether it scatters as a Lambertian surface does: no metal, facets, glass or coat."""
-        return not (self.metallic or self.specular or self.transmission or self.clearcoat)
+        layers = self.transmission or self.clearcoat or any(self.sheen)
+        return not (self.metallic or self.specular or layers)
 
     @property
     def has_holes(self) -> bool:

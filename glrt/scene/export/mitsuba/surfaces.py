@@ -105,6 +105,10 @@ class Surfaces:
             self._report(f"the correlated shadows between facets of {quoted(name)}")
         if material.anisotropy:
             self._report(f"the anisotropy of {quoted(name)}")
+        if material.film:
+            self._report(f"the iridescence of {quoted(name)}")
+        if any(material.sheen):
+            self._report(f"the sheen of {quoted(name)}")
         if material.clearcoat:
             self._report(f"the exact coat of {quoted(name)}")
         if material.specular != 1 or material.specular_color != (1, 1, 1):

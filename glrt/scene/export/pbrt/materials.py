@@ -117,6 +117,10 @@ class Materials:
         self._report(f"the exact surface of {quoted(name)}: pbrt has no principled one")
         if material.anisotropy:
             self._report(f"the anisotropy of {quoted(name)}")
+        if material.film:
+            self._report(f"the iridescence of {quoted(name)}")
+        if any(material.sheen):
+            self._report(f"the sheen of {quoted(name)}")
         if material.clearcoat:
             self._report(f"the coat of {quoted(name)}")
         if material.transmission:

@@ -18,6 +18,8 @@ from glrt.scene.values import LARGEST
 _UNREAD = {  # textures that have no counterpart, by extension
     "KHR_materials_specular": ("specularTexture", "specularColorTexture"),
     "KHR_materials_anisotropy": ("anisotropyTexture",),
+    "KHR_materials_iridescence": ("iridescenceTexture", "iridescenceThicknessTexture"),
+    "KHR_materials_sheen": ("sheenColorTexture", "sheenRoughnessTexture"),
     "KHR_materials_clearcoat": (
         "clearcoatTexture",
         "clearcoatRoughnessTexture",
@@ -177,6 +179,17 @@ def _layers(
         look.table["anisotropy_rotation"] = math.degrees(math.remainder(turn, math.tau))
         if isinstance(look.table["roughness"], dict):
             _leave_out(look, "anisotropy", "anisotropy with an image of roughness")
+    film = own("iridescence")
+    if share := value(film, "iridescenceFactor", 0):
+        look.table["iridescence"] = share
+        look.table["iridescence_ior"] = max(value(film, "iridescenceIor", 1.3, 10), 1.0)
+        thickness = value(film, "iridescenceThicknessMaximum", 400, 1e4)
+        look.table["iridescence_thickness"] = thickness
+    cloth = own("sheen")
+    fibres = look.numbers(cloth.get("sheenColorFactor", [0, 0, 0]), 3, f"{here}: sheenColorFactor")
+    if any(fibres):
+        look.table["sheen"] = fibres
+        look.table["sheen_roughness"] = value(cloth, "sheenRoughnessFactor", 0)
     if transmission:
         image = textures.table(crossed.get("transmissionTexture"), f"{here}: transmissionTexture")
         factor = {**image, "channel": "r", "factor": transmission} if image else transmission
@@ -190,6 +203,10 @@ def _fit_glass(look: Look) -> None:
         _leave_out(look, "clearcoat", "clearcoat over transmission")
     if look.table.get("anisotropy"):
         _leave_out(look, "anisotropy", "anisotropy of transmission")
+    if look.table.get("iridescence"):
+        _leave_out(look, "iridescence", "iridescence of transmission")
+    if look.table.pop("sheen", None):
+        look.unread.append("sheen of transmission")
     if isinstance(look.table["metallic"], dict):
         _leave_out(look, "metallic", "metallicRoughnessTexture with transmission")
     if look.table["thin"]:
