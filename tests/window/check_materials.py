@@ -66,13 +66,14 @@ def a_principled_surface_is_edited_live(hand: Hand) -> None:
         assert getattr(its(hand), name.replace(" ", "_")) == value
         assert hand.session.last_cost is most, name
         assert name == "ior" or (hand.pixels() != before).any()  # metal has none
-    hand.session.last_cost = None
-    move(hand, "sheen##material it/##X", 0.5)
-    hand.settle()
-    assert (its(hand).sheen, hand.session.last_cost) == ((0.5, 0, 0), Cost.RECOMPILE)
-    move(hand, "sheen roughness##material it", 0.75)
-    hand.settle()
-    assert (its(hand).sheen_roughness, hand.session.last_cost) == (0.75, Cost.RESTART)
+    for label, value, wanted, cost in (
+        ("sheen##material it/##X", 0.5, (0.5, 0, 0), Cost.RECOMPILE),
+        ("sheen roughness##material it", 0.75, 0.75, Cost.RESTART),
+    ):
+        move(hand, label, value)
+        hand.settle()
+        assert getattr(its(hand), label.partition("#")[0].replace(" ", "_")) == wanted
+        assert hand.session.last_cost is cost
     move(hand, "transmission##material it", 0.5)  # with a coat: refused, and said
     hand.settle()
     assert "a coat over transmission" in hand.session.problem
