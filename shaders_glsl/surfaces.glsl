@@ -19,7 +19,6 @@
 #include "media/grid.glsl"
 #include "media/transfer.glsl"
 #include "media/steps.glsl"
-#include "media/bounds.glsl"
 #include "integrators/middle_ray.glsl"
 #include "passes/surface_flags.glsl"
 #include "integrators/middle_volume.glsl"

@@ -58,7 +58,6 @@
 #include "media/grid.glsl"
 #include "media/transfer.glsl"
 #include "media/steps.glsl"
-#include "media/bounds.glsl"
 #include "media/flight.glsl"
 #include "media/equiangular.glsl"
 #include "integrators/aov_numbers.glsl"

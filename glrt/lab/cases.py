@@ -21,7 +21,7 @@ from glrt.lab import (
 )
 from glrt.lab.sweep import Case
 from glrt.lab.temporal import live_probes, moving, still_pixel
-from glrt.lab.volumes import marching, media
+from glrt.lab.volumes import marching, media, overlaps
 
 _ALL = (
     Case("distance", "A distant sphere", rays.distance),
@@ -90,6 +90,7 @@ _ALL = (
     Case("inside", "A camera in fog", media.inside),
     Case("march", "Steps through a layer of smoke", marching.march),
     Case("voxel", "One voxel in an empty grid", marching.voxel),
+    Case("overlap", "Fog that overlaps other fog", overlaps.overlap),
     Case("albedo", "Walls that hardly absorb", sums.albedo),
     Case("seeds", "Pixels that share random numbers", sums.seeds),
     Case("dimensions", "Points in ever more dimensions", points.dimensions),

@@ -80,4 +80,5 @@ def pack_media(facts: SceneFacts) -> dict[str, Array]:
         row["object"] = number_of[it.number]
         row["inside"] = medium_row(facts, facts.media.filling(it.inside, it.number))
         row["outside"] = medium_row(facts, facts.media.filling(it.outside, it.around))
+        row["ior"] = it.ior
     return {"Medium": media, "Boundary": rows}

@@ -117,6 +117,7 @@ def pack_frame(
     density of samples of the sky image, as sky_table.py computes it.
     """
     scene, settings, glass = plan.scene, plan.settings, plan.facts.camera_glass
+    media = plan.facts.media
     bottom, *horizon, top = scene.background_colors
     frame = {
         "camera": pack_camera(scene.camera, settings.width / settings.height),
@@ -132,7 +133,7 @@ def pack_frame(
         **phong_fields(settings.phong),
         "march_step": settings.march_step,
         "camera_absorption": glass.absorption,
-        "camera_counts": glass.counts,
+        "camera_counts": media.camera_volumes if media.is_ranked else glass.counts,
         "sky_density": sky_density,
         "background_turn": (scene.background.rotation or 0.0) / 360 % 1.0,
         "seed": settings.seed,
@@ -144,7 +145,7 @@ def pack_frame(
         "first_tile": dispatch.first_tile,
         "tile_stride": dispatch.tile_stride,
         "is_empty": int(dispatch.is_empty),
-        "camera_medium": medium_row(plan.facts, plan.facts.media.around_camera),
+        "camera_medium": medium_row(plan.facts, media.around_camera),
         "coincident_reach": _coincident_reach(plan.facts),
         **frame_fields(tree, np.array(scene.camera.position, np.float64)),
     }

@@ -85,6 +85,11 @@ class Case:
         return self.has_media and bool(self.facts.media.grids)
 
     @property
+    def has_ranks(self) -> bool:
+        """Whether the method crosses volumes that overlap by priority."""
+        return self.facts.media.is_ranked and self.traits.follows
+
+    @property
     def has_transfers(self) -> bool:
         """Whether such a medium is a scientific volume, with a transfer function."""
         return self.has_media and bool(self.facts.media.transfers)

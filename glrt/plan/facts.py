@@ -231,7 +231,9 @@ class SceneFacts:
 
     @property
     def nested(self) -> list[str]:
-        """Names of the glasses with a priority."""
+        """Names of the glasses with a priority; none where it ranks volumes with media."""
+        if self.media.is_ranked:
+            return []
         return self._glasses(lambda glass: glass.priority is not None)
 
     def _glasses(self, are: Callable[[Dielectric], bool]) -> list[str]:

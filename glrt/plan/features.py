@@ -108,9 +108,8 @@ class Needs:
         reasons.equiangular,
         most=False,
     )
-    boundaries: int = _row(  # objects that bound a volume, in a scene with media
-        lambda it: len(it.facts.media.bounds), most=0
-    )
+    boundaries: int = _row(lambda it: len(it.facts.media.bounds), most=0)  # of volumes with media
+    has_ranks: bool = _row(lambda it: it.has_ranks, "volumes by rank", reasons.ranks, most=False)
     has_mirror: bool = _row(
         lambda it: (
             it.traits.follows

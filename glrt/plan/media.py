@@ -9,8 +9,9 @@ import numpy as np
 from glrt.scene.grids import edges_of_voxels, holders_of, steps_across
 from glrt.scene.loading.scene_files import check_loaded
 from glrt.scene.scene import Scene
-from glrt.scene.volumes import Bounds, bounds_of, medium_in, volume_around
+from glrt.scene.volumes import Bounds, bounds_of, has_ranks, medium_in, volume_around
 
+RANKED = 5  # times that the bounds are looked up on a segment, where volumes have ranks
 MOST_STEPS = 10_000  # of a ray through a grid: llvmpipe ends loops after 65,535 rounds
 
 
@@ -80,6 +81,28 @@ class MediaFacts:
         """The bounds of all volumes, in a scene that uses media."""
         shown = set(self.scene.shown)
         return tuple(it for it in bounds_of(self.scene) if it.number in shown and self.names)
+
+    @cached_property
+    def is_ranked(self) -> bool:
+        """Whether volumes overlap by priority."""
+        return has_ranks(self.scene)
+
+    @property
+    def rounds_of_bounds(self) -> int:
+        """Rounds of loops on a segment in which a kernel looks bounds up."""
+        return (2 + len(self.bounds)) * (RANKED if self.is_ranked else 1)
+
+    @property
+    def displaced(self) -> set[str]:
+        """Materials of the bounds that others may displace, so that segments pass them."""
+        return {self.scene.objects[it.number].material for it in self.bounds if self.is_ranked}
+
+    @cached_property
+    def camera_volumes(self) -> int:
+        """The volumes around the camera, where they are ranked: a bit for each of `bounds`."""
+        eye, things = np.array(self.scene.camera.position, np.float64), self.scene.objects
+        holding = [things[it.number].holds(eye) for it in self.bounds if self.is_ranked]
+        return sum(1 << row for row, holds in enumerate(holding) if holds)
 
     @cached_property
     def around_camera(self) -> Filling | None:

@@ -61,6 +61,13 @@ def media(case: Case) -> str:
     return f"filled with {few(names)}" if names else "no medium fills space"
 
 
+def ranks(case: Case) -> str:
+    """Return whether volumes of a scene with media have priorities."""
+    if not case.facts.media.is_ranked:
+        return "no volume of a scene with media has a priority"
+    return f"{len(case.facts.media.bounds)} volumes by priority"
+
+
 def grids(case: Case) -> str:
     """Return the media whose density varies."""
     names = case.facts.media.grids

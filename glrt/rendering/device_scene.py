@@ -89,7 +89,9 @@ class DeviceScene:
         self._constants = constants_of(plan, self._tree, options.variant)
         # Rounds of loops through trees, passed surfaces and grids are a guess: samples may be lost.
         facts = plan.facts
-        self._may_lose = bool(facts.has_trees or facts.lobes.passed or facts.media.grids)
+        self._may_lose = bool(
+            facts.has_trees or facts.lobes.passed or facts.media.grids or facts.media.is_ranked
+        )
         self.tier = tier_for(self._arrays, options.tier)
         self._texts = self._texts_of(self.tier)
         self._resources: dict[str, Resource] = {}

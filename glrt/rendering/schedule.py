@@ -73,7 +73,7 @@ def iterations_per_sample(plan: Plan, tree_rounds: float = TREE_ROUNDS) -> int:
         rays, choice = rays + 1, choice + levels + 1
     rays += traits.samples_lights and plan.scene.sun is not None
     segments = (settings.bounces + 1) * (1 + _passed(facts))
-    bounds = 2 + len(facts.media.bounds) if plan.needs.has_media else 0  # to look one up
+    bounds = facts.media.rounds_of_bounds if plan.needs.has_media else 0
     if plan.needs.has_grid and tree_rounds:
         bounds += facts.media.steps(settings.march_step if plan.needs.marches else None)
     if plan.needs.has_equiangular:  # a ray more, and its lamp chosen
@@ -117,7 +117,7 @@ def _levels_of_sky(scene: Scene) -> int:
 
 def _passed(facts: SceneFacts) -> int:
     """Holes, and surfaces in other glass, that a segment may pass; a guess from MOST_PASSED on."""
-    passed = {*facts.nested, *facts.lobes.passed}
+    passed = {*facts.nested, *facts.lobes.passed, *facts.media.displaced}
     shapes = facts.scene.visible if passed else ()
     return min(sum(thing.material in passed for thing in shapes), MOST_PASSED)
 

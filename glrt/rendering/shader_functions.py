@@ -124,6 +124,7 @@ def _choice(found: SceneFacts) -> dict[str, bool | int]:
         "HAS_GRID": bool(found.media.grids),
         "HAS_TRANSFER": bool(found.media.transfers),
         "BOUNDARIES": len(found.media.bounds),
+        "HAS_RANKS": found.media.is_ranked,
         "HAS_COAT": bool(found.lobes.coated),
         "HAS_ANISOTROPY": bool(found.lobes.anisotropic),
         "HAS_IRIDESCENCE": bool(found.lobes.iridescent),

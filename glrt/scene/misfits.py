@@ -48,8 +48,8 @@ def medium_problems(scene: SceneFields) -> Iterator[tuple[Place, str]]:
         material = scene.materials.get(item.material)
         if isinstance(material, Nothing) and not item.encloses:
             yield ("objects", index, "material"), _OPEN_ADVICE.format(item.shape)
-        if scene.media and isinstance(material, Dielectric) and material.priority is not None:
-            yield ("materials", item.material, "priority"), _PRIORITY_ADVICE
+        if item.priority is not None and material is not None and not _is_entered(material):
+            yield ("objects", index, "priority"), _PRIORITY_ADVICE
         if item.medium is None:
             continue
         place = ("objects", index, "medium")
@@ -61,6 +61,12 @@ def medium_problems(scene: SceneFields) -> Iterator[tuple[Place, str]]:
                 yield place, _TINTED_ADVICE
             elif material.roughness > 0:
                 yield place, _ROUGH_ADVICE
+
+
+def _is_entered(material: Material) -> bool:
+    """Return whether light enters an object of this material, so that it holds a volume."""
+    glass = glass_of(material)
+    return isinstance(material, Nothing) or (glass is not None and not glass.thin)
 
 
 def _medium_problem(
@@ -96,8 +102,8 @@ _OPEN_ADVICE = (
     "box, a cylinder with caps or a closed mesh"
 )
 _PRIORITY_ADVICE = (
-    "does not go with media: in a scene with media, objects of glass lie apart or one within "
-    "another, and none needs a priority; leave it out"
+    "light does not enter this object, so it holds no volume; leave the priority out, or give the "
+    "object the material none or glass"
 )
 _SURFACE_ADVICE = (
     "light does not enter this object; give it the material none, or smooth glass that encloses it"

@@ -26,6 +26,7 @@ from glrt.scene.schema.tables import to_tables, toml_text
 from glrt.scene.schema.validation import MisfitError, Place, validated
 from glrt.scene.shapes.kinds import Shape
 from glrt.scene.values import LARGEST, Number
+from glrt.scene.volumes import has_ranks
 from glrt.settings import RenderSettings
 
 
@@ -147,7 +148,7 @@ class Scene(LitScene):
 
     @model_validator(mode="after")
     def _fits_together(self) -> Self:
-        nesting = nesting_problems(self.materials, self.visible)
+        nesting = [] if has_ranks(self) else nesting_problems(self.materials, self.visible)
         lights = [*sun_problems(self), *_light_problems(self)]
         things = [*object_problems(self), *medium_problems(self)]
         problems = [*things, *nesting, *lights, *_emptiness(self)]

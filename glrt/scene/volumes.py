@@ -1,7 +1,9 @@
 """Which medium lies inside and outside each object that bounds a volume.
 
-Volumes lie apart from each other or one within another. So the medium around each is known before
-a render, and a path needs no stack of the volumes around it.
+Volumes without priorities lie apart from each other or one within another. So the medium around
+each is known before a render, and a path needs no stack of the volumes around it. Volumes with
+priorities may overlap: the one of the highest rank holds the place. Its rank is its priority, and
+among equal ones how many of them it lies in.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -14,6 +16,7 @@ from glrt.core.memo import kept_for_the_same
 from glrt.core.text import quoted
 from glrt.scene.camera import Camera
 from glrt.scene.crossing_glass import Relation, relations
+from glrt.scene.materials.dielectric import Dielectric
 from glrt.scene.materials.kinds import Material, glass_of
 from glrt.scene.materials.nothing import Nothing
 from glrt.scene.schema.fields import SceneFields
@@ -35,6 +38,7 @@ class Bounds(NamedTuple):
     inside: str | None  # None: vacuum
     outside: str | None
     around: int | None = None  # number of the volume that it lies in
+    ior: float = 0.0  # of its glass, against air, where volumes have ranks; 0: it is not of glass
 
 
 def bounds_a_volume(material: Material | None) -> bool:
@@ -44,9 +48,16 @@ def bounds_a_volume(material: Material | None) -> bool:
 
 
 def bounds_of(scene: SceneFields) -> tuple[Bounds, ...]:
-    """Return the bounds of all volumes, in the order of objects; none in a scene without media."""
+    """Return the bounds of all volumes; none in a scene without media.
+
+    They are in the order of objects or, where volumes have ranks, in ascending order of rank. Then
+    what lies outside is what lies outside of all.
+    """
     around = _around(scene) if scene.media else {}
     things = scene.objects
+    if has_ranks(scene):
+        rows = sorted(around, key=lambda n: _rank(scene, n, around[n]))
+        return tuple(Bounds(n, things[n].medium, scene.medium, None, _ior(scene, n)) for n in rows)
     holders = {n: outer[-1] if outer else None for n, outer in around.items()}
     return tuple(
         Bounds(n, things[n].medium, medium_in(scene, holder), holder)
@@ -68,15 +79,52 @@ def medium_in(scene: SceneFields, number: int | None) -> str | None:
 
 
 def volume_around(scene: SceneFields, point: Floats) -> int | None:
-    """Return the number of the innermost volume at a point, (3,); None outside of all."""
+    """Return the number of the volume that holds a point, (3,); None outside of all.
+
+    It is the innermost one, or that of the highest rank.
+    """
     around = _around(scene) if scene.media else {}
     holding = [n for n in around if scene.objects[n].holds(point)]
+    if has_ranks(scene):
+        return max(holding, key=lambda n: _rank(scene, n, around[n]), default=None)
     return max(holding, key=lambda n: len(around[n]), default=None)
 
 
 def medium_around(scene: SceneFields, point: Floats) -> str | None:
     """Return the name of the medium at a point, (3,); None for vacuum."""
     return medium_in(scene, volume_around(scene, point))
+
+
+def has_ranks(scene: SceneFields) -> bool:
+    """Return whether volumes of a scene that uses media have priorities."""
+    if not scene.media:
+        return False
+    shown = [thing for thing in scene.objects if not thing.hidden]
+    used = {scene.medium, *(thing.medium for thing in shown)}
+    return not used.isdisjoint(scene.media) and any(
+        bounds_a_volume(scene.materials.get(it.material)) and _priority(scene, it) is not None
+        for it in shown
+    )
+
+
+def _priority(scene: SceneFields, thing: Shape) -> int | None:
+    """Return the priority of the volume of an object, or of its glass; None if it has none."""
+    material = scene.materials.get(thing.material)
+    of_glass = material.priority if isinstance(material, Dielectric) else None
+    return of_glass if thing.priority is None else thing.priority
+
+
+def _rank(scene: SceneFields, number: int, around: Sequence[int]) -> tuple[int, int, int]:
+    """Return by what volumes that overlap are ordered, for one that lies in those `around` it."""
+    things = scene.objects
+    own = _priority(scene, things[number]) or 0
+    equal = sum((_priority(scene, things[n]) or 0) == own for n in around)
+    return own, equal, number
+
+
+def _ior(scene: SceneFields, number: int) -> float:
+    glass = glass_of(scene.materials.get(scene.objects[number].material))
+    return glass.ior if glass else 0.0
 
 
 def volume_problems(scene: SceneFields) -> Iterator[str]:
@@ -90,14 +138,41 @@ def volume_problems(scene: SceneFields) -> Iterator[str]:
             f"medium, and {MOST_VOLUMES} can be in a scene with media; join some, or remove some"
         )
         return
+    if has_ranks(scene):
+        yield from _glass_problems(scene, volumes)
     for relation, (first, second) in _related(scene.objects, scene.materials):
         pair = (scene.objects[first], scene.objects[second])
         names = f"objects[{first}] ({_called(pair[0])}) and objects[{second}] ({_called(pair[1])})"
-        if relation != "inside":
+        is_mesh = isinstance(pair[0], Mesh) or isinstance(pair[1], Mesh)
+        if (_priority(scene, pair[0]) or 0) != (_priority(scene, pair[1]) or 0):
+            if relation == "share a face" and not is_mesh:  # of a mesh, the box around it is known
+                yield f"{names} {_RELATION[relation]}, so {_FACE_ADVICE}"
+        elif relation != "inside":
             yield f"{names} {_RELATION[relation]}, so {_ADVICE}"
         elif isinstance(pair[1], Mesh):
             yield f"{names}: the first lies in the box around a mesh, so {_ADVICE}"
     yield from _lens_problems(scene, volumes)
+
+
+def _glass_problems(scene: SceneFields, volumes: Sequence[int]) -> Iterator[str]:
+    """Yield the objects of glass that do not go with ranks of volumes."""
+    glass = {n: glass_of(scene.materials.get(scene.objects[n].material)) for n in volumes}
+    for number, it in glass.items():
+        if it and any(it.absorption):
+            yield (
+                f"objects[{number}] ({_called(scene.objects[number])}): glass with "
+                "attenuation_color does not go with priorities in a scene with media; give the "
+                "object a medium with absorption in place of it"
+            )
+    for _, pair in _related(scene.objects, scene.materials):
+        first, second = (glass[n] for n in pair)
+        plain = [isinstance(scene.materials[scene.objects[n].material], Dielectric) for n in pair]
+        if first and second and (first.alpha or second.alpha or not all(plain)):
+            yield (
+                f"objects[{pair[0]}] and objects[{pair[1]}] are of glass and overlap, and rough or "
+                "principled glass does not go with priorities there; move them apart, or make "
+                "both of smooth dielectric"
+            )
 
 
 def _lens_problems(scene: SceneFields, volumes: Sequence[int]) -> Iterator[str]:
@@ -129,8 +204,10 @@ def _lens(camera: Camera) -> Floats:
 _RELATION: dict[Relation, str] = {"cross": "cross", "share a face": "share a part of a face"}
 _ADVICE = (
     "which medium lies where is not known: in a scene with media, move objects of glass and "
-    "objects that bound a medium apart, or one wholly into another"
+    "objects that bound a medium apart, or one wholly into another, or give them different "
+    "values of priority"
 )
+_FACE_ADVICE = "light misses one of the two there; let one reach into the other by a hair"
 
 
 def _called(thing: Shape) -> str:

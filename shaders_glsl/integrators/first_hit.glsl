@@ -27,7 +27,7 @@ vec3 aov_of(int aov, Ray ray, Hit hit) {
 Pixel object_of(ivec2 place) {
     Ray ray = middle_ray(place);
     leave_vertex(0u, 0);  // one random number for all pixels: a partly transparent object is seen whole, or not at all
-    Hit hit = HAS_HOLE ? solid_hit(ray, FAR, NO_SHAPE) : closest_hit(ray);
+    Hit hit = MAY_PASS ? solid_hit(ray, FAR, NO_SHAPE, frame.camera_counts) : closest_hit(ray);
     Pixel pixel = empty_pixel();
     pixel.mean = vec3(hit.shape == NO_SHAPE ? 0.0 : float(1 + object_number(hit.shape)));
     pixel.count = 1.0;
@@ -49,7 +49,7 @@ void add_aovs(inout Pixel first, inout Pixel second, ivec2 place) {
         Sampler rng = sampler_at(place, index, frame.seed);
         Ray ray = camera_ray(frame.camera, vec2(frame.size), vec2(place), rng);
         leave_vertex(rng.seed, 0);
-        Hit hit = HAS_HOLE ? solid_hit(ray, FAR, NO_SHAPE) : closest_hit(ray);
+        Hit hit = MAY_PASS ? solid_hit(ray, FAR, NO_SHAPE, frame.camera_counts) : closest_hit(ray);
         add_aov(first, FIRST_AOV, ray, hit, index);
         add_aov(second, SECOND_AOV, ray, hit, index);
     }

@@ -5,7 +5,7 @@ struct Meeting {
     Normals normals;  // on the side that the path comes from
     Ray ray;          // leaves the surface, still in the direction of the path
     vec3 behind;      // absorption per unit length on the other side
-    uint beyond;      // counts of the glasses with a priority on the other side
+    uint beyond;      // counts of the glasses with a priority on the other side, or volumes where HAS_RANKS
     int medium;       // on the other side
 };
 
@@ -56,7 +56,8 @@ Meeting meet(Path path, Surface surface, Material material, bool by_shading) {
     vec3 behind = absorption_behind(path, material, side > 0.0);
     Ray ray = Ray(surface.position, direction, surface.shape, side < 0.0);
     int medium = path.flight.medium;
-    if (HAS_MEDIA) medium = medium_behind(medium, object_number(surface.shape), side > 0.0);
+    if (HAS_MEDIA || HAS_RANKS) cross_bounds(medium, beyond, object_number(surface.shape), side > 0.0);
+    if (HAS_RANKS && material.kind == DIELECTRIC) vertex.eta = ior_of(path.counts) / ior_of(beyond);
     return Meeting(vertex, Normals(facing, shading), ray, behind, beyond, medium);
 }
 
@@ -72,7 +73,7 @@ void leave(inout Path path, Meeting at, Scattering next) {
     ray.inward = ray.inward != next.crosses;
     path.ray = ray;
     if (HAS_ATTENUATION && next.crosses) path.absorption = at.behind;
-    if (HAS_NESTED && next.crosses) path.counts = at.beyond;
+    if ((HAS_NESTED || HAS_RANKS) && next.crosses) path.counts = at.beyond;
     if (HAS_MEDIA && next.crosses) path.flight.medium = at.medium;
     path.depth += 1;
 }

@@ -38,7 +38,7 @@ MiddleSurface middle_surface(ivec2 place) {
         vec4 volume = middle_volume(ray);
         if (volume.w > 0.0 && !loop_was_cut) return MiddleSurface(volume, vec4(-ray.direction, float(CLOUD)));
     }
-    Hit hit = HAS_HOLE ? solid_hit(ray, FAR, NO_SHAPE) : closest_hit(ray);
+    Hit hit = MAY_PASS ? solid_hit(ray, FAR, NO_SHAPE, frame.camera_counts) : closest_hit(ray);
     if (loop_was_cut) return MiddleSurface(vec4(ray.direction, -1.0), vec4(-ray.direction, 0.0));
     if (hit.shape == NO_SHAPE) return MiddleSurface(vec4(ray.direction, 0.0), vec4(-ray.direction, 0.0));
     Surface surface = surface_at(ray, hit);

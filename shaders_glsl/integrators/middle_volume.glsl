@@ -27,6 +27,7 @@ float length_of_depth(int row, Ray ray, float limit, inout float depth) {
 vec4 middle_volume(Ray ray) {
     vec3 direction = ray.direction;
     int medium = frame.camera_medium;
+    uint volumes = frame.camera_counts;
     float depth = DEPTH_OF_VOLUME;
     float object = 0.0;
     uint passed = 0u;
@@ -41,10 +42,11 @@ vec4 middle_volume(Ray ray) {
         }
         if (hit.shape == NO_SHAPE) return vec4(0.0);
         Surface surface = surface_at(ray, hit);
-        if (!is_hole(material_of(ray, surface), passed)) return vec4(0.0);
+        int bound = object_number(surface.shape);
+        if (!is_passed(material_of(ray, surface), passed, volumes, bound)) return vec4(0.0);
         ray = beyond(ray, surface);
-        object = float(1 + object_number(surface.shape));
-        medium = medium_behind(medium, object_number(surface.shape), ray.inward);
+        object = float(1 + bound);
+        cross_bounds(medium, volumes, bound, ray.inward);
     }
     note_end(int(passed), int(MOST_HOLES) + 2);
     return vec4(0.0);

@@ -47,16 +47,14 @@ void shade(inout Path path, Vertex vertex, Ray from, inout Sampler rng) {
     note_end(i, light_count());
 }
 
-// The segment goes on through a hole of a surface.
+// The segment goes on through a surface: through a hole, or because its glass gives way to other glass.
 void pass_hole(inout Path path, Surface surface, float distance) {
-    record_passing(EVENT_PASSED_HOLE);
+    int object = object_number(surface.shape);
+    record_passing(is_displaced(path.counts, object) ? EVENT_PASSED_GLASS : EVENT_PASSED_HOLE);
     path.passed.holes += 1u;
     path.passed.way += distance;
     path.ray = beyond(path.ray, surface);
-    if (HAS_MEDIA) {
-        int object = object_number(surface.shape);
-        path.flight.medium = medium_behind(path.flight.medium, object, path.ray.inward);
-    }
+    if (HAS_MEDIA || HAS_RANKS) cross_bounds(path.flight.medium, path.counts, object, path.ray.inward);
 }
 
 // Whether a path was scattered by a medium on a segment along which lamps were sampled, this lamp among them.
@@ -84,7 +82,7 @@ float weight_of_emission(Path path, Hit hit, int light) {
         return weight;
     }
     Ray start = path.ray;
-    if (HAS_HOLE) {
+    if (MAY_PASS) {
         hit.distance += path.passed.way;
         start = path.passed.start;
     }
@@ -103,7 +101,9 @@ void gather_sampled(inout Path path, Meeting at, LightSample light, int source) 
     if (HAS_ATTENUATION) direct *= share_left(along < 0.0 ? at.behind : path.absorption, light.distance);
     if (HAS_MEDIA && direct != vec3(0.0)) {
         light.ray.inward = light.ray.inward != (along < 0.0);
-        direct *= light_left(light.ray, light.distance, light.shape, along < 0.0 ? at.medium : path.flight.medium);
+        int medium = along < 0.0 ? at.medium : path.flight.medium;
+        uint volumes = along < 0.0 ? at.beyond : path.counts;
+        direct *= light_left(light.ray, light.distance, light.shape, medium, volumes);
     }
     record_sample(light.ray.direction, light.distance);
     record_light(BY_SAMPLING, source, light.pdf, light.radiance, direct);
@@ -276,7 +276,7 @@ bool extend_path(inout Path path, inout Sampler rng) {
         pass_glass(path, surface, material, enters);
         return true;
     }
-    if (HAS_HOLE && is_hole(material, path.passed.holes)) {
+    if (MAY_PASS && is_passed(material, path.passed.holes, path.counts, object_number(surface.shape))) {
         pass_hole(path, surface, hit.distance);
         return true;
     }

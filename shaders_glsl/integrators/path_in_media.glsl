@@ -45,7 +45,7 @@ Approach approach_lamps(inout Path path, Medium medium, float distance) {
     vec3 direct = scattered * (weight * phase / pdf) * light.radiance;
     if (direct == vec3(0.0)) return found;
     uint own = leave_for_a_ray();  // the segment may have passed holes by these numbers
-    direct *= light_left(light.ray, light.distance, light.shape, path.flight.medium);
+    direct *= light_left(light.ray, light.distance, light.shape, path.flight.medium, path.counts);
     hole_key = own;
     if (LIGHT_TERMS != 0) sort_by_medium(path);
     record_weight(0.0, weight);
@@ -196,7 +196,7 @@ void gather_in_medium(inout Path path, Medium medium, LightSample light, int sou
         share = power_heuristic(light.pdf, phase);
     }
     weight *= share;
-    vec3 left = light_left(light.ray, light.distance, light.shape, path.flight.medium);
+    vec3 left = light_left(light.ray, light.distance, light.shape, path.flight.medium, path.counts);
     vec3 direct = path.scale * path.throughput * left * weight * light.radiance;
     record_weight(WEIGHT_BOTH ? phase : 0.0, share);
     if (left == vec3(0.0)) record_shadow();

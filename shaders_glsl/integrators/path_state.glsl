@@ -29,7 +29,7 @@ struct Path {
     float lamps;      // total weight of all lamps that are sampled, where the path scattered last
     int depth;        // scattering events so far
     vec3 absorption;  // of the glass that its next segment lies in
-    uint counts;      // counts of the glasses with a priority there
+    uint counts;      // counts of the glasses with a priority there, or the volumes where HAS_RANKS
     Passed passed;
     Rivals rivals;
     Asking asking;
@@ -41,7 +41,7 @@ struct Path {
 
 Path start_path(Ray ray) {
     vec3 absorption = HAS_ATTENUATION ? frame.camera_absorption : vec3(0.0);
-    uint counts = HAS_NESTED ? frame.camera_counts : 0u;
+    uint counts = HAS_NESTED || HAS_RANKS ? frame.camera_counts : 0u;
     Passed passed = Passed(0u, ray, 0.0);
     Rivals rivals = Rivals(0.0, start_chain(ray));
     Flight flight = start_flight(HAS_MEDIA ? frame.camera_medium : NO_MEDIUM);

@@ -68,8 +68,8 @@ bool flies_into(inout Flight flight, Medium medium, float distance, inout float 
 }
 
 // The share of light that reaches a point from `distance` away, through media and their bounds; 0 where a surface
-// stands between. `lamp`: the shape that the light comes from, or NO_SHAPE.
-vec3 light_left(Ray ray, float distance, int lamp, int medium) {
+// stands between. `lamp`: the shape that the light comes from, or NO_SHAPE; `volumes`: around the start.
+vec3 light_left(Ray ray, float distance, int lamp, int medium, uint volumes) {
     if (COUNT_RAYS) rays_so_far += 1.0;
     bool is_shared = HAS_COINCIDENT && lamp != NO_SHAPE && !(HAS_SPHERE && up_to_sphere(lamp));
     float limit = is_shared ? FAR : distance;
@@ -92,12 +92,13 @@ vec3 light_left(Ray ray, float distance, int lamp, int medium) {
             left *= vec3(decay(depth.x), decay(depth.y), decay(depth.z));
             return left;
         }
-        if (!HAS_HOLE || hit.shape == NO_SHAPE) return vec3(0.0);
+        if (!MAY_PASS || hit.shape == NO_SHAPE) return vec3(0.0);
         Surface surface = surface_at(ray, hit);
-        if (!is_hole(material_of(ray, surface), passed)) return vec3(0.0);
+        int object = object_number(surface.shape);
+        if (!is_passed(material_of(ray, surface), passed, volumes, object)) return vec3(0.0);
         if (limit < FAR) limit -= hit.distance;
         ray = beyond(ray, surface);
-        medium = medium_behind(medium, object_number(surface.shape), ray.inward);
+        cross_bounds(medium, volumes, object, ray.inward);
     }
     note_end(int(passed), int(MOST_HOLES) + 2);
     return vec3(0.0);

@@ -21,4 +21,5 @@
 #include "textures/coordinates.glsl"
 #include "textures/map.glsl"
 #include "textures/mapped.glsl"
+#include "media/bounds.glsl"
 #include "textures/holes.glsl"

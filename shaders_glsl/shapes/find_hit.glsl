@@ -2,7 +2,7 @@
 // gives the same bits.
 
 // Whether the rounds of a sample are a guess (glrt/rendering/schedule.py): a dispatch may lose samples, and reports it.
-const bool MAY_LOSE = HAS_SPHERE_TREE || HAS_TREE || HAS_MESH || HAS_HOLE || HAS_GRID;
+const bool MAY_LOSE = HAS_SPHERE_TREE || HAS_TREE || HAS_MESH || HAS_HOLE || HAS_RANKS || HAS_GRID;
 
 // The nearest disk, box or cylinder nearer than hit.distance, with the parameters of find_hit. Most scenes
 // have none of these.

@@ -41,7 +41,7 @@ struct Frame {
     vec3 sun_radiance;
     float splat_unit;        // radiance of one unit of the sums that particles add to pixels (particles.comp)
     vec3 camera_absorption;  // of the glass around the camera, per unit length
-    uint camera_counts;      // counts of the glasses with a priority around it (integrators/glasses.glsl)
+    uint camera_counts;      // counts of the glasses with a priority around it (integrators/glasses.glsl), or volumes
     vec3 bounds_center;     // centre of a ball around all shapes but planes, where particles leave the sun
     float bounds_radius;
     float background_turn;  // rotation of its image about +y, in turns from 0 to 1

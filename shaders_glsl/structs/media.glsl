@@ -26,5 +26,5 @@ struct Boundary {
     int object;   // kernel's number
     int inside;   // row of a medium, or NO_MEDIUM
     int outside;
-    int spare;
+    float ior;    // of its glass, against air, where HAS_RANKS; 0: it is not of glass
 };

@@ -65,6 +65,7 @@ SWEEP = Sweep(
 @pytest.mark.slow_cases(
     "depth", "turn", "spike", "layer", "colors", "skim", "inside", "march", "voxel", "uneven"
 )
+@pytest.mark.slow_cases("overlap")
 @pytest.mark.slow_cases(*SLOW)
 @pytest.mark.parametrize("name", CASES)
 def test_every_case_holds_and_distinguishes_the_naive_method_from_the_chosen(

@@ -93,7 +93,7 @@ def test_the_renders_use_every_feature() -> None:
 
 
 @pytest.mark.slow_cases("by constants", "by nets", "by own counts")
-@pytest.mark.slow_cases("caustics", "shared places", "hazy by steps", "drawn")
+@pytest.mark.slow_cases("caustics", "shared places", "hazy by *", "drawn")
 @pytest.mark.parametrize("name", RENDERS)
 def test_the_kernel_of_a_profile(software: Context, usual: Image, name: str) -> None:
     """Other tests render by these: features that a scene leaves out change no bit."""
@@ -115,7 +115,7 @@ WAYS = [  # a crowd has too many shapes to be baked; some lack a fragment shader
 @pytest.mark.slow_cases(
     *("by constants-tier-baked", "by constants-pipeline-fragment"),
     *("drawn-tier-baked", "drawn-pipeline-fragment"),
-    *("hazy by steps-tier-baked", "hazy by steps-pipeline-fragment", "by nets-tier-baked"),
+    *("hazy by *", "by nets-tier-baked"),
     *("by own counts-tier-baked", "caustics-tier-baked", "shared places-tier-baked"),
     *("hazy-pipeline-fragment", "mapped-pipeline-fragment"),
 )

@@ -103,7 +103,13 @@ BAD_MEDIA = [
         f"{_BALL}.medium",
         "attenuation_color",
     ),
-    _of_glass("fog with priority", "priority = 1", "materials.glass.priority", "leave it out"),
+    bad(
+        "chalk with priority",
+        'radius = 0.35\nmaterial = "white"\n',
+        'radius = 0.35\nmaterial = "white"\npriority = 1\n',
+        f"{_BALL}.priority",
+        "light does not enter",
+    ),
     bad(
         "an endless glow",
         "format = 1",

@@ -137,7 +137,13 @@ def pictured() -> Scene:
     )
 
 
-def hazy() -> Scene:
+OVERLAPPING = [  # glass, and a hole, that take the place of the glass with milk
+    {**box([-0.2, -0.9, -4.6], [0.5, 0.2, -3.6], "glass"), "priority": 1},
+    {**sphere([0.9, 0.1, -3.9], 0.4, "none"), "priority": 2},
+]
+
+
+def hazy(*more: dict[str, Any]) -> Scene:
     """Three media, one of them in glass, in another, under a lamp, a sun and a sky."""
     white, grey = {"type": "dielectric", "ior": 1.4}, {"type": "lambertian", "color": [0.5] * 3}
     fog = {"scattering": [0.4, 0.5, 0.7], "absorption": [0.1, 0.0, 0.2], "anisotropy": 0.4}
@@ -157,6 +163,7 @@ def hazy() -> Scene:
             {**box([-2, -1.5, -6], [2, 1.5, -2], "none"), "medium": "fog"},
             {**sphere([0.4, 0, -4], 0.6, "glass"), "medium": "milk"},
             quad([-0.5, 1, -4], [1, 0, 0], [0, 0, 1], "lamp"),
+            *more,
         ],
         {"glass": white, "grey": grey, "lamp": lamp(5.0)},
         {"fov": 50},
@@ -177,6 +184,7 @@ RENDERS: dict[str, tuple[Scene, dict[str, Any]]] = {
     "shared places": (shared_places(), {"method": "resampled", "reuse": "both", "probes": 2}),
     "pictured": (pictured(), {"method": "mis", "roulette": False}),
     "hazy": (hazy(), {"method": "mis"}),
+    "hazy by ranks": (hazy(*OVERLAPPING), {"method": "mis"}),
     "hazy by steps": (hazy(), {"method": "march", "march_step": 0.1}),
     "drawn": (mapped(), {"method": "hybrid", "effects": TRACED}),
     "by own counts": (still_life(), {"method": "mis", "adaptive": "on"}),

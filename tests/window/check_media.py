@@ -98,3 +98,32 @@ def a_grid_is_shown_by_colours_whose_knots_are_changed(hand: Hand) -> None:
     hand.settle()
     assert session.scene.media["fog"].transfer is None
     assert any(session.scene.media["fog"].scattering)
+
+
+@check
+def fog_with_a_priority_takes_the_place_of_other_fog(hand: Hand) -> None:
+    """The switch gives it one, a slider raises it, and the other fog may then cross it."""
+    session = hand.session
+    add(hand, "sphere")
+    hand.settle()
+    hand.ctx.set_ref("Controls")
+    hand.ctx.item_click("fill with fog")
+    hand.settle()
+    number = len(session.scene.objects) - 1
+    hand.ctx.item_click(f"has priority##shape {number}")
+    hand.settle()
+    assert session.scene.objects[-1].priority == 0
+    hand.ctx.item_input_value(f"priority##shape {number}", 2)
+    hand.settle()
+    before = session.scene
+    fog = before.objects[-1]
+    assert isinstance(fog, Sphere)
+    assert fog.priority == 2
+    beside = tuple(np.add(fog.center, [0, fog.radius, 0]).tolist())
+    other = replaced(fog, center=beside, priority=None)
+    hand.there(lambda: session.edit(replaced(before, objects=(*before.objects, other))))
+    hand.settle()
+    assert not session.problem, session.problem
+    hand.ctx.item_click(f"has priority##shape {number}")
+    hand.until(lambda: bool(session.problem))
+    assert "priority" in session.problem

@@ -12,6 +12,7 @@ from glrt.scene.scene import Scene
 from glrt.scene.volumes import (
     MOST_VOLUMES,
     bounds_a_volume,
+    has_ranks,
     medium_in,
     outer_volumes,
     volume_around,
@@ -51,6 +52,8 @@ def sides_of(scene: Scene, report: Report) -> dict[int, Sides]:
     solids = [n for n in scene.shown if bounds_a_volume(scene.materials[scene.objects[n].material])]
     if not scene.media_in_use and not any(tinted(scene, scene.objects[n].material) for n in solids):
         return {}
+    if has_ranks(scene):
+        report("the priority of volumes that overlap")
     around: dict[int, list[int]] = {n: [] for n in solids}
     if len(solids) <= MOST_VOLUMES:
         around |= {n: held for n, held in outer_volumes(scene).items() if n in around}

@@ -62,6 +62,13 @@ class Object(Tagged):
         description="name of the medium inside, for an object of glass or of a material of type "
         "none; default: vacuum",
     )
+    priority: Annotated[
+        int | None, Field(ge=-1000, le=1000), Editable(Cost.RECOMPILE, "", (-10, 10))
+    ] = Field(
+        None,
+        description="where objects that bound volumes overlap, the one of the highest priority is "
+        "there, in a scene with media; default: that of its glass, or else 0",
+    )
     hidden: Annotated[bool, Editable(Cost.RECOMPILE)] = Field(
         False, description="whether it is left out of the picture"
     )

@@ -44,6 +44,11 @@ def with_medium_of(scene: Scene, index: int, name: str | None) -> Scene:
     return with_object(scene, index, replaced(scene.objects[index], medium=name))
 
 
+def with_priority(scene: Scene, index: int, priority: int | None) -> Scene:
+    """Return the scene with another priority of the volume of object `index`, or None for none."""
+    return with_object(scene, index, replaced(scene.objects[index], priority=priority))
+
+
 def with_medium(scene: Scene, name: str, **changes: Any) -> Scene:
     """Return the scene with other values of a medium."""
     medium = replaced(scene.media[name], **changes)

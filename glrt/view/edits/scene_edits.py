@@ -62,7 +62,7 @@ def with_retyped(scene: Scene, name: str, kind: str) -> Scene:
     """Return the scene with another type of a material; values that both types have stay."""
     if TYPES[kind] not in (Dielectric, Nothing):  # light does not enter other materials
         emptied = (
-            replaced(it, medium=None) if it.medium and it.material == name else it
+            replaced(it, medium=None, priority=None) if it.material == name else it
             for it in scene.objects
         )
         scene = scene.model_copy(update={"objects": tuple(emptied)})

@@ -22,6 +22,7 @@ from glrt.view.edits.media_edits import (
     with_medium,
     with_medium_of,
     with_medium_part,
+    with_priority,
     with_transfer,
 )
 from glrt.view.widgets.cost_badges import tag
@@ -29,6 +30,9 @@ from glrt.view.widgets.fields import button, edited, edited_fields, tip
 
 _VACUUM = "vacuum"
 MEDIUM = choice("medium inside", "what fills the object", Cost.RECOMPILE)
+RANKED = switch(
+    "has priority", "the volume takes the place of others that it overlaps", Cost.RECOMPILE
+)
 VALUES = controls_of(Medium)
 SCALE = controls_of(Density, ("min", "max"))
 LENGTH = controls_of(Transfer)
@@ -60,6 +64,11 @@ def draw_medium(app: App, index: int, shape: Shape) -> None:
             app.edit_scene("", partial(with_fog, index=index))
         tip("Fog in place of the object, whose surface becomes its bounds")
         tag(Cost.RECOMPILE)
+        return
+    is_ranked = edited(RANKED, shape.priority is not None, f"shape {index}")
+    if is_ranked is not None:
+        priority = 0 if is_ranked else None
+        app.edit_scene("", partial(with_priority, index=index, priority=priority))
         return
     names = (_VACUUM, *scene.media)
     chosen = edited(replace(MEDIUM, choices=names), shape.medium or _VACUUM, f"shape {index}")
