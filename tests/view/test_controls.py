@@ -49,7 +49,7 @@ def test_optional_and_annotated_types_are_seen_through() -> None:
     assert of(Background, "top").kind == "color"
     assert (of(Lambertian, "color").high, of(Light, "emission").high) == (1, 1e15)
     assert of(Sphere, "center").kind == "vector"
-    assert {c.name for c in controls_of(Sphere)} == {"hidden", "center", "radius"}
+    assert {c.name for c in controls_of(Sphere)} == {"priority", "hidden", "center", "radius"}
 
 
 def test_controls_whose_first_use_compiles_say_so() -> None:
