@@ -24,6 +24,7 @@
 #include "bsdfs/ggx.glsl"
 #include "bsdfs/metal.glsl"
 #include "bsdfs/dielectric.glsl"
+#include "bsdfs/dispersion.glsl"
 #include "bsdfs/albedos.glsl"
 #include "bsdfs/rough_dielectric.glsl"
 #include "bsdfs/pane.glsl"

@@ -10,6 +10,7 @@ Modules, each importing only what stands above it:
 - lamps: small lamps, many lamps, a lamp below a ceiling
 - spots: edges of cones, one spot among many
 - glass: refraction and caustics
+- dispersion: glass that parts colors
 - particles: caustics of lamps, glasses, numbers of balls and cameras of any kind
 - probes: light through thin walls, rooms that hardly absorb
 - reuse: points of other pixels, where slats stand between

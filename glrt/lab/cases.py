@@ -3,6 +3,7 @@
 from glrt.lab import (
     blur,
     denoising,
+    dispersion,
     glass,
     lamps,
     own_counts,
@@ -34,6 +35,7 @@ _ALL = (
     Case("drawn", "Triangles that are drawn, and smaller ones", triangles.drawn),
     Case("fov", "Narrow and wide fields of view", views.fov),
     Case("ior", "Glass with an index near 1", glass.ior),
+    Case("prism", "Glass that parts colors, at any angle", dispersion.prism),
     Case("lamp", "A small lamp", lamps.lamp),
     Case("lamps", "Many lamps", lamps.lamps),
     Case("cone", "The edge of a spot", spots.cone),

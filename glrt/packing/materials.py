@@ -41,10 +41,11 @@ def pack_metal(row: Any, material: Metal) -> None:
 
 
 def pack_dielectric(row: Any, material: Dielectric) -> None:
-    """Fill a row with an index of refraction and the alpha of GGX."""
+    """Fill a row with an index of refraction, how far it spreads, and the alpha of GGX."""
     row["kind"] = CONSTANTS["PANE" if material.thin else "DIELECTRIC"]
     row["color"] = 1.0
     row["ior"], row["alpha"] = material.ior, material.alpha
+    row["metallic"] = material.spread
 
 
 def pack_light(row: Any, material: Light) -> None:

@@ -137,6 +137,7 @@ class Needs:
         "rough glass",
         made_of("rough glass", lambda it: it.facts.rough_glasses),
     )
+    has_dispersion: bool = _followed("dispersion", "dispersion", lambda it: it.lobes.dispersing)
     has_pane: bool = _followed("thin glass", "panes", lambda it: it.panes)
     has_attenuation: bool = _followed("tinted glass", "attenuation", lambda it: it.tinted)
     has_nested: bool = _followed("glass with priority", "nested glass", lambda it: it.nested)

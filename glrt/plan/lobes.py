@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from glrt.scene.materials.kinds import Material
+from glrt.scene.materials.kinds import Material, glass_of
 from glrt.scene.materials.metal import Metal
 from glrt.scene.materials.nothing import Nothing
 from glrt.scene.materials.principled import Principled
@@ -45,6 +45,12 @@ class LobeFacts:
     def transmitting(self) -> list[str]:
         """Names of the principled materials that are partly glass."""
         return [name for name, it in self._principled.items() if it.glass]
+
+    @property
+    def dispersing(self) -> list[str]:
+        """Names of the materials of glass that refracts each color by an index of its own."""
+        found = ((name, glass_of(it)) for name, it in self.materials.items())
+        return [name for name, glass in found if glass and glass.spread > 0]
 
     @property
     def holed(self) -> list[str]:

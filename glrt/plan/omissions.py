@@ -122,6 +122,8 @@ def _omissions(facts: SceneFacts, method: str, is_ambient: bool) -> Iterator[str
         yield "highlights of metal are alike in all directions"
     if not is_local and not traits.has_rough and facts.rough_glasses:
         yield "rough glass is smooth"
+    if traits.splits and facts.lobes.dispersing:
+        yield "glass refracts all colors alike"
     if not is_local and lamps and "lambertian" in kinds and kinds & {"metal", "dielectric"}:
         yield "no light over mirrors or through glass onto matte surfaces"
     if "principled" in kinds and len(scene.visible) > 1:

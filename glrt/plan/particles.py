@@ -129,7 +129,7 @@ class ParticleFacts:
         """Bits of the spheres through which particles can be linked to the camera.
 
         They are smooth casters. Thin glass is left out, and so are glass with a priority, glass
-        with an index below 1, glass in part, and spheres that something reaches into.
+        with dispersion or an index below 1, glass in part, and spheres that something reaches into.
         """
         scene = self.scene
         spheres = [thing for thing in scene.visible if isinstance(thing, Sphere)]
@@ -157,7 +157,7 @@ def _bends_as_known(scene: Scene, sphere: Sphere) -> bool:
     material = scene.materials[sphere.material]
     if not isinstance(material, Dielectric):
         return isinstance(material, Metal) and material.alpha == 0
-    is_plain = not material.thin and material.priority is None
+    is_plain = not material.thin and material.priority is None and material.spread == 0
     return is_plain and material.ior >= 1 and material.alpha == 0
 
 

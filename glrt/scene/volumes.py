@@ -164,6 +164,11 @@ def _glass_problems(scene: SceneFields, volumes: Sequence[int]) -> Iterator[str]
                 "attenuation_color does not go with priorities in a scene with media; give the "
                 "object a medium with absorption in place of it"
             )
+        if it and it.spread:
+            yield (
+                f"objects[{number}] ({_called(scene.objects[number])}): glass with dispersion does "
+                "not go with priorities in a scene with media; leave one of the two out"
+            )
     for _, pair in _related(scene.objects, scene.materials):
         first, second = (glass[n] for n in pair)
         plain = [isinstance(scene.materials[scene.objects[n].material], Dielectric) for n in pair]

@@ -26,6 +26,7 @@ Scattering sample_material(Vertex vertex, inout Sampler rng) {
     Material material = vertex.material;
     if (HAS_DIELECTRIC && material.kind == DIELECTRIC) {
         float choice = next_1d(rng);
+        if (HAS_DISPERSION && disperses(material)) return sample_dispersing(vertex, choice);
         if (!is_rough_glass(material)) return sample_dielectric(vertex, choice);
         vec2 u = next_2d(rng);
         return sample_rough_dielectric(vertex, choice, u);

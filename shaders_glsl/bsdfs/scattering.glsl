@@ -12,6 +12,7 @@ struct Vertex {
     float eta;          // index of refraction here over there
     vec3 along;         // world: where HAS_ANISOTROPY, facets are rougher along it, and frame[0] follows it
     float stretch;      // alpha along it over alpha across; 1: facets are alike all round
+    vec3 etas;          // where HAS_DISPERSION: eta of each channel; 0 where the path has no light in it
 };
 
 struct Scattering {
@@ -25,7 +26,7 @@ struct Scattering {
 // `is_outside`: whether wo is on the outer side of the surface.
 Vertex vertex_of(mat3 frame, vec3 wo, Material material, bool is_outside) {
     float eta = is_outside ? 1.0 / material.ior : material.ior;
-    return Vertex(frame, wo, material, is_outside, eta, vec3(0.0), 1.0);
+    return Vertex(frame, wo, material, is_outside, eta, vec3(0.0), 1.0, vec3(eta));
 }
 
 // The frame, turned about its normal so that its first column lies along a direction, as far as that can be.
@@ -42,7 +43,7 @@ mat3 frame_along(mat3 frame, vec3 along) {
 Vertex vertex_along(Vertex vertex, vec3 along, float stretch) {
     mat3 frame = frame_along(vertex.frame, along);
     vec3 wo = to_local(frame, normalized(vertex.frame * vertex.wo));
-    return Vertex(frame, wo, vertex.material, vertex.is_outside, vertex.eta, along, stretch);
+    return Vertex(frame, wo, vertex.material, vertex.is_outside, vertex.eta, along, stretch, vertex.etas);
 }
 
 // Colour of light that crosses glass, without the absorption inside it. It is not white where the glass is a part

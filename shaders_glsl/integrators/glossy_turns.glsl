@@ -35,7 +35,7 @@ Vertex vertex_from(Vertex vertex, Normals at, vec3 w) {
     if (HAS_ANISOTROPY) frame = frame_along(frame, vertex.along);
     vec3 wo = to_local(frame, w);
     bool is_outside = vertex.is_outside != crosses;
-    return Vertex(frame, wo, vertex.material, is_outside, eta, vertex.along, vertex.stretch);
+    return Vertex(frame, wo, vertex.material, is_outside, eta, vertex.along, vertex.stretch, vec3(eta));
 }
 
 // V and p of a direction wi of the world; 0 where no path goes there. `facing`: the true normal on the side of wo.

@@ -58,6 +58,7 @@ Meeting meet(Path path, Surface surface, Material material, bool by_shading) {
     int medium = path.flight.medium;
     if (HAS_MEDIA || HAS_RANKS) cross_bounds(medium, beyond, object_number(surface.shape), side > 0.0);
     if (HAS_RANKS && material.kind == DIELECTRIC) vertex.eta = ior_of(path.counts) / ior_of(beyond);
+    if (HAS_DISPERSION && disperses(material)) vertex.etas = etas_of(vertex, path.throughput);
     return Meeting(vertex, Normals(facing, shading), ray, behind, beyond, medium);
 }
 

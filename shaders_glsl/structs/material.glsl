@@ -16,7 +16,7 @@ struct Material {
     int layer;       // layer of its light group, where light is kept by layers
     int emitter;     // index into the emitters: how it emits
     int details;     // index into the conductors, the glasses or the gloss; or NO_DETAILS
-    float metallic;  // share of a principled surface that is metal
+    float metallic;  // share of a principled surface that is metal; of glass: ior at the F line minus that at the C line
     float roughness; // roughness of a principled surface, or the factor of an image
     float coverage;  // chance that a path does not meet a hole of the surface
     float crossed;   // factor, from an image, of the share that is glass; of facets with a direction: its angle from u

@@ -97,6 +97,7 @@ MATERIALS = st.one_of(
     tables(PRINCIPLED, type=st.just("principled"), color=st.one_of(COLORS, boards(COLORS))),
     tables({"roughness": FRACTIONS}, type=st.just("metal"), color=COLORS),
     tables({"ior": st.one_of(st.floats(0.5, 3), LENGTHS)}, type=st.just("dielectric")),
+    tables({"dispersion": st.floats(0, 10)}, type=st.just("dielectric")),
     tables({"color": COLORS, "group": NAMES}, type=st.just("light"), emission=triples(RADIANCES)),
 )
 SHAPES = st.one_of(

@@ -99,6 +99,7 @@ def whole_gltf() -> Builder:
         "KHR_materials_sheen": {"sheenColorFactor": [0.5, 0, 1], "sheenRoughnessFactor": 0.4},
         "KHR_materials_transmission": {"transmissionFactor": 0.3},
         "KHR_materials_volume": {"thicknessFactor": 1, "attenuationDistance": 2.0},
+        "KHR_materials_dispersion": {"dispersion": 0.5},
     }
     rest = {"alphaMode": "MASK", "normalTexture": image, "doubleSided": False}
     look = builder.add(

@@ -78,6 +78,7 @@ MATERIALS: dict[str, dict[str, Any]] = {
     "pane": glass(thin=True),
     "tinted": glass(attenuation_color=[0.5] * 3, attenuation_distance=1.0),
     "water": glass(1.33, priority=1),
+    "prism": glass(dispersion=1.0),
     "plastic": {"type": "principled"},
     "painted": {"type": "principled", "clearcoat": 1.0},
     "velvet": {"type": "principled", "sheen": [0.5, 0.5, 0.5]},

@@ -212,6 +212,10 @@ def test_one_that_something_lies_in_has_none(name: str) -> None:
     assert links_of(FULL[name]) == 0
 
 
+def test_balls_of_dispersing_glass_are_not_linked() -> None:
+    assert links_of([FLOOR], dispersion=1.0) == 0
+
+
 def test_a_hidden_thing_lies_nowhere() -> None:
     assert links_of([{**FULL["with a lamp in it"][0], "hidden": True}]) == 1
 

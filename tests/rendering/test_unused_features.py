@@ -37,6 +37,7 @@ UNUSED: list[tuple[str, dict[str, Any], list[str]]] = [
     ("cornell", {}, ["lights/sky.glsl", "film/layers.glsl", "probes/query.glsl"]),
     ("cornell", {"method": "naive"}, ["lights/sampling.glsl"]),
     ("lens", {}, ["bsdfs/dielectric.glsl"]),
+    ("weekend", {}, ["bsdfs/dispersion.glsl"]),
     ("lamps", {}, ["bsdfs/ggx.glsl", "bsdfs/metal.glsl", "probes/maps.glsl"]),
     ("lamps", {"sampler": "independent"}, ["sampling/sobol.glsl"]),
     ("metals", {}, ["probes/grid.glsl"]),

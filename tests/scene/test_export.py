@@ -243,6 +243,15 @@ def test_sheen_is_read_again(tmp_path: Path) -> None:
     assert {key: getattr(found, key) for key in cloth} == cloth
 
 
+def test_dispersion_is_read_again(tmp_path: Path) -> None:
+    clear = PAINT | {"transmission": 1.0, "roughness": 0.0, "dispersion": 0.5}
+    flint = glass(1.75, dispersion=0.25)
+    parts = [mesh(icosphere(1), "paint"), mesh(icosphere(1), "flint", translate=[3, 0, 0])]
+    scene = scene_of(parts, {"paint": clear, "flint": flint}, CAMERA)
+    assert left_out(scene) == ""
+    assert sorted(it.dispersion for it in read_again(scene, tmp_path)) == [0.25, 0.5]
+
+
 def test_the_sun_is_read_again(tmp_path: Path) -> None:
     sun = {"direction": [1.0, 2.0, 3.0], "irradiance": [1.0, 2.0, 4.0]}
     read = again(whole(sun=sun, lights={"sun": 0.5}), tmp_path)

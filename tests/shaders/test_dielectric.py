@@ -101,7 +101,7 @@ def test_reflectance_is_the_same_from_either_side(call_glsl: CallGlsl, ior: floa
 def through_glass(call_glsl: CallGlsl, what: str, returns: str, **inputs: Any) -> Array:
     """A field of the Scattering of `wo` (local) about the world normal `n`."""
     setup = f"""
-        Vertex vertex = Vertex(frame_around(n), wo, {GLASS}, true, eta, vec3(0.0), 1.0);
+        Vertex vertex = Vertex(frame_around(n), wo, {GLASS}, true, eta, vec3(0.0), 1.0, vec3(eta));
         Scattering next = sample_dielectric(vertex, u);
         vec3 local = to_local(vertex.frame, next.direction);"""
     return call_glsl(what, returns, setup=setup, **inputs)

@@ -39,6 +39,7 @@ PROBES = {
     "HAS_ROUGH_METAL": ("bsdfs/metal.glsl", "facets(vertex, u)", "facets(vertex, {} * u)"),
     "HAS_CONDUCTOR": ("bsdfs/conductor.glsl", "= cosine * cosine;", "= {} * cosine * cosine;"),
     "HAS_DIELECTRIC": ("bsdfs/dielectric.glsl", "cos_i = vertex.wo.z", "cos_i = {} * vertex.wo.z"),
+    "HAS_DISPERSION": ("bsdfs/dispersion.glsl", "scaled = u * count", "scaled = {} * u * count"),
     "HAS_ROUGH_GLASS": ("bsdfs/rough_dielectric.glsl", "vertex.eta * cos_o +", "{} * cos_o +"),
     "HAS_PRINCIPLED": ("bsdfs/principled.glsl", "chances.z * even", "{} * chances.z * even"),
     "HAS_COAT": ("bsdfs/principled.glsl", "chances.x * density", "{} * chances.x * density"),

@@ -109,7 +109,7 @@ def test_rays_at_the_critical_angle_stay_numbers(call_glsl: CallGlsl, ior: float
         Material glass =
             Material(vec3(1.0), DIELECTRIC, vec3(0.0), 0.0, 1.5, 0, 0, -1, 0.0, 0.0, 1.0, 1.0);
         mat3 frame = frame_around(vec3(0.6, 0.0, 0.8));
-        Vertex vertex = Vertex(frame, wo, glass, true, eta, vec3(0.0), 1.0);
+        Vertex vertex = Vertex(frame, wo, glass, true, eta, vec3(0.0), 1.0, vec3(eta));
         Scattering next = sample_dielectric(vertex, u);"""
     for u in (0.0, 0.3, 0.9, BELOW_ONE):
         args = {"setup": setup, "u": np.array([u]), **given}

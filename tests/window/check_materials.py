@@ -91,6 +91,10 @@ def glass_is_tinted_and_nests(hand: Hand) -> None:
     move(hand, "attenuation distance##material it", 2.0)
     hand.settle()
     assert its(hand).attenuation_distance == 2.0
+    move(hand, "dispersion##material it", 0.5)
+    hand.settle()
+    assert (its(hand).dispersion, hand.session.last_cost) == (0.5, Cost.RECOMPILE)
+    move(hand, "dispersion##material it", 0.0)
     move(hand, "nests##material it", None)
     hand.settle()
     assert its(hand).priority == 0

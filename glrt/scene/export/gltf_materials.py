@@ -99,6 +99,7 @@ class MaterialWriter:
             "KHR_materials_transmission": {"transmissionFactor": 1.0},
             "KHR_materials_ior": {"ior": max(material.ior, _LEAST_IOR)},
             **_volume(material),
+            **_dispersion(material),
         }
         self._file.use(*extensions)
         return {"pbrMetallicRoughness": base, "extensions": extensions}
@@ -172,6 +173,7 @@ class MaterialWriter:
                 texels[..., 0] = channel_of(image)
                 crossing["transmissionTexture"] = self._textures.lying(image, texels, False)
             found |= {"KHR_materials_transmission": crossing, **_volume(material)}
+            found |= _dispersion(material)
         return found
 
 
@@ -181,6 +183,12 @@ def _grain(material: Metal | Principled) -> Table:
         return {}
     turn = {"anisotropyRotation": math.radians(material.anisotropy_rotation)}
     return {"KHR_materials_anisotropy": {"anisotropyStrength": material.anisotropy, **turn}}
+
+
+def _dispersion(material: Dielectric | Principled) -> Table:
+    if not material.dispersion:
+        return {}
+    return {"KHR_materials_dispersion": {"dispersion": material.dispersion}}
 
 
 def _volume(material: Dielectric | Principled) -> Table:

@@ -12,6 +12,9 @@ from glrt.settings import Cost, Editable
 # Share of light that is left of a channel that is black in attenuation_color.
 LEAST_LEFT = 1e-12
 
+Dispersion = Annotated[float, Field(ge=0, le=10), Editable(Cost.RECOMPILE, slider=(0, 2))]
+DISPERSION = "of smooth glass: 20 over its Abbe number; 0: all colors refract alike"
+
 
 class Dielectric(Surface):
     """Glass or liquid, smooth or rough (GGX), with exact unpolarised Fresnel reflection."""
@@ -34,6 +37,7 @@ class Dielectric(Surface):
         None,
         description="length inside after which light has the `attenuation_color` (Beer's law)",
     )
+    dispersion: Dispersion = Field(0.0, description=DISPERSION)
     thin: Annotated[bool, Editable(Cost.RECOMPILE)] = Field(
         False,
         description="whether the surface is a pane, both faces at once: light passes it straight",
@@ -53,6 +57,7 @@ class Dielectric(Surface):
             roughness: Number = 0.0,
             attenuation_color: Triple | None = None,
             attenuation_distance: Number | None = None,
+            dispersion: Number = 0.0,
             thin: bool = False,
             priority: int | None = None,
         ) -> None: ...
@@ -72,12 +77,23 @@ class Dielectric(Surface):
                 "roughness": self.roughness > 0,
                 "attenuation_distance": self.attenuation_distance is not None,
                 "priority": self.priority is not None,
+                "dispersion": self.dispersion > 0,
             }
             for key in (key for key, is_given in has.items() if is_given):
                 raise ValueError(f"a thin pane has no {key}; leave that out, or thin")
         if self.priority is not None and self.roughness > 0:
             raise ValueError("rough glass has no priority; leave one of the two out")
+        if self.dispersion > 0:
+            self._disperses_as_known()
         return self
+
+    def _disperses_as_known(self) -> None:
+        if self.roughness > 0:
+            raise ValueError("rough glass has no dispersion; give roughness = 0, or leave it out")
+        if self.priority is not None:
+            raise ValueError("dispersion with a priority is not known; leave one of the two out")
+        if self.ior < 1:
+            raise ValueError("dispersion needs an ior of at least 1; leave one of the two out")
 
     @property
     def alpha(self) -> float:
@@ -87,6 +103,11 @@ class Dielectric(Surface):
         """
         alpha = self.roughness**2
         return alpha if alpha * min(1.0, abs(self.ior - 1)) >= SMOOTHEST else 0.0
+
+    @property
+    def spread(self) -> float:
+        """Index of refraction at the F line minus that at the C line: (ior - 1) / Abbe number."""
+        return (self.ior - 1) * self.dispersion / 20
 
     @property
     def has_details(self) -> bool:

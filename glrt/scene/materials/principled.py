@@ -15,7 +15,7 @@ from glrt.scene.materials.base import (
     alpha_of,
     stretch_of,
 )
-from glrt.scene.materials.dielectric import Dielectric
+from glrt.scene.materials.dielectric import DISPERSION, Dielectric, Dispersion
 from glrt.scene.materials.textures import NormalTexture, Texture, data_texture
 from glrt.scene.materials.thin_film import ThinFilm
 from glrt.scene.values import BLACK, WHITE, Color, Fraction, Length, Number, Triple
@@ -57,6 +57,7 @@ class Principled(Opaque):
     attenuation_distance: Annotated[Length | None, Editable(Cost.RECOMPILE)] = Field(
         None, description="of the glass, as for the type dielectric"
     )
+    dispersion: Dispersion = Field(0.0, description=f"{DISPERSION}; with transmission")
     thin: Annotated[bool, Editable(Cost.RECOMPILE)] = Field(
         False, description="whether its glass is a pane, which has roughness 0"
     )
@@ -124,6 +125,7 @@ class Principled(Opaque):
             transmission: Number | Texture = 0.0,
             attenuation_color: Triple | None = None,
             attenuation_distance: Number | None = None,
+            dispersion: Number = 0.0,
             thin: bool = False,
             alpha: Number | Texture = 1.0,
             clearcoat: Number = 0.0,
@@ -186,6 +188,7 @@ class Principled(Opaque):
             roughness=self.roughness,
             attenuation_color=self.attenuation_color,
             attenuation_distance=self.attenuation_distance,
+            dispersion=self.dispersion,
             thin=self.thin,
         )
 

@@ -72,6 +72,8 @@ class Surfaces:
     def _glass(self, name: str, material: Dielectric) -> Words:
         if material.priority is not None:
             self._report(f"the priority of {quoted(name)}")
+        if material.spread:
+            self._report(f"the dispersion of {quoted(name)}")
         if material.alpha:
             self._report(f"the light that facets of {quoted(name)} send to each other")
         return glass(material)

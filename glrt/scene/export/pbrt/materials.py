@@ -88,6 +88,8 @@ class Materials:
     def _glass(self, name: str, material: Dielectric) -> Words:
         if material.priority is not None:
             self._report(f"the priority of {quoted(name)}")
+        if material.spread:
+            self._report(f"the dispersion of {quoted(name)}")
         if material.thin:
             return {"string type": "thindielectric", "float eta": material.ior}
         if material.alpha:

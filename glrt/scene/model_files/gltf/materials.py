@@ -194,6 +194,8 @@ def _layers(
         image = textures.table(crossed.get("transmissionTexture"), f"{here}: transmissionTexture")
         factor = {**image, "channel": "r", "factor": transmission} if image else transmission
         look.table["transmission"] = factor
+        if spread := value(own("dispersion"), "dispersion", 0, 10):
+            look.table["dispersion"] = spread
         _fit_glass(look)
 
 
@@ -211,6 +213,8 @@ def _fit_glass(look: Look) -> None:
         _leave_out(look, "metallic", "metallicRoughnessTexture with transmission")
     if look.table["thin"]:
         make_pane(look)
+    elif look.table.get("dispersion") and look.table["roughness"] != 0.0:
+        _leave_out(look, "dispersion", "dispersion of rough glass")
 
 
 def _leave_out(look: Look, key: str, told: str) -> None:
@@ -253,7 +257,7 @@ def without_image(look: Look, key: str) -> None:
 
 def make_pane(look: Look) -> None:
     """Let the glass of a material be a pane, which is smooth and encloses nothing."""
-    for key in ("attenuation_color", "attenuation_distance"):
+    for key in ("attenuation_color", "attenuation_distance", "dispersion"):
         look.table.pop(key, None)
     if look.table["roughness"] != 0.0:
         look.table["roughness"] = 0.0
