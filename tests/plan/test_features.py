@@ -146,7 +146,7 @@ def needs_with(flags: set[str]) -> Needs:
     made_of |= {"HAS_PRINCIPLED": "plastic", "HAS_COAT": "painted", "HAS_TRANSMISSION": "wax"}
     made_of |= {"HAS_ATTENUATION": "tinted", "HAS_NESTED": "water", "HAS_IRIDESCENCE": "soapy"}
     made_of |= {"HAS_NONE": "none", "HAS_COLOR_MAP": "checked", "HAS_EMISSION_MAP": "glowing"}
-    made_of |= {"HAS_SHEEN": "velvet"}
+    made_of |= {"HAS_SHEEN": "velvet", "HAS_DISPERSION": "prism"}
     made_of |= {"HAS_GLOSS_MAP": "worn", "HAS_NORMAL_MAP": "bumpy"}
     made_of |= {"HAS_COVERAGE_MAP": "torn", "HAS_HOLE": "gauze", "HAS_TRANSMISSION_MAP": "label"}
     objects = [body(name) for flag, name in made_of.items() if flag in flags]

@@ -244,7 +244,7 @@ def test_sheen_is_read_again(tmp_path: Path) -> None:
 
 
 def test_dispersion_is_read_again(tmp_path: Path) -> None:
-    clear = PAINT | {"transmission": 1.0, "roughness": 0.0, "dispersion": 0.5}
+    clear = PAINT | {"clearcoat": 0.0, "transmission": 1.0, "roughness": 0.0, "dispersion": 0.5}
     flint = glass(1.75, dispersion=0.25)
     parts = [mesh(icosphere(1), "paint"), mesh(icosphere(1), "flint", translate=[3, 0, 0])]
     scene = scene_of(parts, {"paint": clear, "flint": flint}, CAMERA)

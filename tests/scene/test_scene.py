@@ -224,7 +224,7 @@ def test_a_scene_survives_the_way_through_plain_tables(data: dict[str, Any]) -> 
 def test_defaults_are_written_out_for_recipes() -> None:
     plain = scene_to_dict(parse_scene(MINIMAL, "test"))
     assert plain["render"]["samples"] == 256
-    glass = {"type": "dielectric", "ior": 1.5, "roughness": 0.0, "thin": False}
+    glass = {"type": "dielectric", "ior": 1.5, "roughness": 0.0, "dispersion": 0.0, "thin": False}
     assert plain["materials"]["glass"] == glass
 
 

@@ -21,6 +21,7 @@ SUN = {"direction": [0.4, 0.7, 0.3], "angle": 12.0, "irradiance": [2.0, 1.9, 1.7
 STILL_LIFE = {
     **MATERIALS,
     "mirror": {"type": "metal", "color": [0.9, 0.8, 0.7]},
+    "prism": {"type": "dielectric", "dispersion": 2.0},
     "brass": {"type": "metal", "color": [0.9, 0.7, 0.3], "roughness": 0.4},
     "brushed": {
         "type": "principled",
@@ -54,6 +55,7 @@ def still_life() -> Scene:
         disk([0, 0.3, -3.5], [0.3, 0.2, 1], 0.6, "brushed"),
         quad([-0.4, -0.9, -1.6], [0.8, 0, 0], [0, 0.7, -0.2], "pane"),
         sphere([0.1, -0.8, -1.8], 0.2, "frosted"),
+        sphere([-0.25, -0.85, -1.75], 0.13, "prism"),
         sphere([1.1, 1.4, -2.0], 0.3, "lamp"),
         disk([-1.2, 1.6, -2.0], [0.3, -1, 0.2], 0.4, "lamp"),
     ]
