@@ -22,6 +22,7 @@ from glrt.cli.options import (
     is_automatic,
 )
 from glrt.cli.reports.render_report import Done, report
+from glrt.cli.reports.warnings import warn
 from glrt.cli.request import Order, frame_of, opened, order
 from glrt.core.errors import RenderError, UsageError
 from glrt.core.text import counted
@@ -29,14 +30,11 @@ from glrt.image.image import Image, check_writable
 from glrt.image.partition import parse_part
 from glrt.image.sources import check_not_scene
 from glrt.plan.combinations import Way, check
-from glrt.plan.facts import SceneFacts
-from glrt.plan.slow_scenes import slow_because
 from glrt.process import signals
 from glrt.process.command import fail, since_start
 from glrt.rendering.render_parts import render_parts
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.stopping import Interruption, Limits, render_to_limit
-from glrt.scene.warnings import cautions
 
 DESCRIPTION = "Render a scene to files, without a window."
 EPILOG = (
@@ -130,17 +128,9 @@ def _run(arguments: argparse.Namespace) -> int:
         chosen = choose(arguments, wanted.scene, wanted.settings, wanted.limits)
         wanted = replace(wanted, **chosen._asdict())
     wanted = with_caustics(arguments, wanted)
-    if not arguments.quiet:
-        _warn(wanted)
+    warn(wanted.scene, wanted.settings, arguments.quiet)
     with Interruption().watched() as interruption:
         return _render(arguments, wanted, interruption, load)
-
-
-def _warn(wanted: Order) -> None:
-    for text in cautions(wanted.scene, wanted.settings):
-        print(f"glrt: caution: {text}", file=sys.stderr)
-    for text in slow_because(SceneFacts(wanted.scene), wanted.settings):
-        print(f"glrt: slow: {text}", file=sys.stderr)
 
 
 def _render(

@@ -81,9 +81,9 @@ class Reporter:
                 f"{new or 'none'} of them rendered now, in {seconds:.1f} s.",
                 file=sys.stderr,
             )
-            if black := [frame for frame in film.frames if frame.is_black]:
-                text = f"{named(black)}: all is black. Does a wall stand before the camera?"
-                print(f"glrt: caution: {text}", file=sys.stderr)
+        if black := [frame for frame in film.frames if frame.is_black]:
+            text = f"{named(black)}: all is black. Does a wall stand before the camera?"
+            print(f"glrt: caution: {text}", file=sys.stderr)
 
 
 def named(frames: Sequence[Frame]) -> str:
