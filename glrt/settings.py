@@ -220,6 +220,11 @@ class Settings(RenderSettings):
         return min(samples, NET) if self.scrambles else samples // self.block
 
     @property
+    def least_known(self) -> int:
+        """Samples of a pixel from which an error is known: two observations."""
+        return 2 if self.scrambles else 2 * self.block
+
+    @property
     def gathered(self) -> tuple[Aov, ...]:
         """AOVs that a render gathers: the requested ones, and the guides of a denoiser."""
         wanted = self.aov + (GUIDES if self.denoise != "none" else ())

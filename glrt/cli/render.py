@@ -161,7 +161,7 @@ def _render(
         text = f"interrupted after {image.samples} samples, which are saved"
         return fail(text, _signal_code(interruption))
     if limits.error is not None and (estimate is None or estimate > limits.error):
-        counts = renderer.samples, renderer.settings.block
+        counts = image.samples, renderer.settings.least_known
         return fail(unreached(arguments.error, limits.error, estimate, *counts), 1)
     return 0
 
@@ -176,26 +176,28 @@ def _picture(
 
 
 def unreached(
-    wanted: float, noise: float, estimate: float | None, samples: int, block: int = 1
+    wanted: float, noise: float, estimate: float | None, samples: int, least: int = 2
 ) -> str:
     """Return the message about an `--error` of `wanted` that was not reached.
 
-    `noise`: error that the method's bias leaves to noise; `block`: samples of an observation.
+    `noise`: error that the method's bias leaves to noise; `least`: samples from which an error is
+    known.
     """
-    found = "unknown" if estimate is None else f"{estimate:.3g}"
-    if samples < 2 * block:
-        found += f" below {2 * block} samples"
-        found += " (2 with --sampler independent)" if block > 1 else ""
-    if noise < wanted:
-        found = (
-            f"after subtracting the bias of the method, its noise must be at most {noise:.3g}; "
-            f"it is {found}"
-        )
+    after = f"after {counted(samples, 'sample')}"
+    if estimate is None and samples < least:
+        known = f"{least} samples" + (" (2 with --sampler independent)" if least > 2 else "")
+        found = f"{after} the error is not known, which takes at least {known}"
     else:
-        found = f"it is {found}"
+        shown = "unknown" if estimate is None else f"{estimate:.3g}"
+        found = f"it is {shown} {after}"
+        if noise < wanted:
+            found = (
+                "after subtracting the bias of the method, its noise must be at most "
+                f"{noise:.3g}; {found}"
+            )
     return (
-        f"--error {wanted:g} was not reached: {found} after {counted(samples, 'sample')}. "
-        "The picture is saved; give more --samples or --time."
+        f"--error {wanted:g} was not reached: {found}. The picture is saved; give more --samples "
+        "or --time."
     )
 
 
