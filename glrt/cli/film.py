@@ -1,7 +1,6 @@
 """`glrt film`: render a series of pictures: an animation, a turntable, or a sweep of values."""
 
 import argparse
-import sys
 from dataclasses import replace
 from typing import Any
 
@@ -18,8 +17,7 @@ from glrt.cli.options import (
     error_limit,
     is_automatic,
 )
-from glrt.cli.reports.film_report import Reporter, named
-from glrt.cli.reports.warnings import warn
+from glrt.cli.reports.film_report import Reporter, named, warn_of
 from glrt.cli.request import Order, order
 from glrt.core.errors import RenderError, UsageError
 from glrt.core.text import counted
@@ -27,7 +25,6 @@ from glrt.image.sources import STANDARD_INPUT, check_not_scene, shown
 from glrt.process import signals
 from glrt.process.command import fail
 from glrt.rendering.stopping import Interruption, Limits
-from glrt.scene.frames import with_values
 from glrt.series.containers import check_container
 from glrt.series.film import Film
 from glrt.series.outputs import parse_output
@@ -172,17 +169,9 @@ def run(arguments: argparse.Namespace) -> int:
         return 0
     film.output.check(film.numbers.start)
     with film.locked():
-        _warn(film.series, arguments.quiet)
-        return _rendered(arguments, _with_caustics(arguments, film))
-
-
-def _warn(series: Series, is_quiet: bool) -> None:
-    """Print the cautions of a series and of its first frame."""
-    scene, settings, _ = series.still(0)
-    if text := series.idle_shutter:
-        print(f"glrt: caution: {text}", file=sys.stderr)
-        scene = with_values(scene, {("camera", "shutter"): 0.0}, "")
-    warn(scene, settings, is_quiet)
+        film = _with_caustics(arguments, film)
+        warn_of(arguments, film)
+        return _rendered(arguments, film)
 
 
 def _rendered(arguments: argparse.Namespace, film: Film) -> int:

@@ -20,6 +20,7 @@ from glrt.cli.options import (
     add_summary,
     error_limit,
     is_automatic,
+    settings_given,
 )
 from glrt.cli.reports.render_report import Done, report
 from glrt.cli.reports.warnings import warn
@@ -128,7 +129,7 @@ def _run(arguments: argparse.Namespace) -> int:
         chosen = choose(arguments, wanted.scene, wanted.settings, wanted.limits)
         wanted = replace(wanted, **chosen._asdict())
     wanted = with_caustics(arguments, wanted)
-    warn(wanted.scene, wanted.settings, arguments.quiet)
+    warn(wanted.scene, wanted.settings, settings_given(arguments), arguments.quiet)
     with Interruption().watched() as interruption:
         return _render(arguments, wanted, interruption, load)
 

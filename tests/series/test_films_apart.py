@@ -116,3 +116,19 @@ def test_a_film_has_the_cautions_of_a_picture(
     assert main(film) == 0
     (line,) = capsys.readouterr().err.splitlines()
     assert "blurs nothing: the scene has no [animation] with tracks" in line
+
+
+def test_options_of_a_film_that_do_nothing_are_named(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(command, "_rendered", lambda *_arguments: 0)
+    idle = ["--fps", "12", "--keep-frames", "--chunk", "2", "--caustics", "off"]
+    swept = ["--sweep", "render.particles=1:2:2"]
+    film = ["film", "cornell", *FILM[:-2], *swept, *idle]
+    assert main([*film, "-o", str(tmp_path / "%d.exr")]) == 0
+    told = capsys.readouterr().err.splitlines()
+    assert [line.split(" has no effect here: ")[0] for line in told] == [
+        f"glrt: caution: --{name}" for name in ("fps", "keep-frames", "chunk", "particles")
+    ]
+    assert main([*film, "-o", str(tmp_path / "a.webp")]) == 0
+    assert len(capsys.readouterr().err.splitlines()) == 2

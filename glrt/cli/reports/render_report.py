@@ -4,7 +4,7 @@ import argparse
 import sys
 from typing import Any, NamedTuple
 
-from glrt.cli.reports.warnings import clipped, doubt, dropped, too_dark
+from glrt.cli.reports.warnings import clipped, doubt, dropped, even, too_dark
 from glrt.core.text import counted
 from glrt.denoise.filters import least_samples
 from glrt.image.image import Image
@@ -59,6 +59,7 @@ def report(arguments: argparse.Namespace, done: Done) -> None:
         )
     doubts = [
         dropped(done.dropped),
+        even(done.image),
         clipped(renderer.lost_particles.clipped),
         doubt(done.image),
         _noisy(done.image),

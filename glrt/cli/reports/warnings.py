@@ -2,15 +2,17 @@
 
 import math
 import sys
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from pathlib import Path
 
 import numpy as np
 
 from glrt.core.text import counted
+from glrt.image.allotment import floor_of
 from glrt.image.image import Image
 from glrt.image.tonemap import expose_and_encode
 from glrt.plan.facts import SceneFacts
+from glrt.plan.idle_settings import idle
 from glrt.plan.slow_scenes import slow_because
 from glrt.scene.scene import Scene
 from glrt.scene.warnings import cautions, is_dark
@@ -22,12 +24,13 @@ _SHOWN = 0.5  # radiance that is bright and not clipped at exposure 0
 _LESS_SURE = {"naive", "nee"}  # methods that find more of the light by chance than `mis`
 
 
-def warn(scene: Scene, settings: Settings, is_quiet: bool) -> None:
+def warn(scene: Scene, settings: Settings, given: Collection[str], is_quiet: bool) -> None:
     """Print what is known before a render: limits overstepped, and what makes it slow.
 
-    `is_quiet`: leave out what makes it slow, which leaves the picture as it is.
+    `given`: settings of the command line, of which some may have no effect. `is_quiet`: leave out
+    what makes it slow, which leaves the picture as it is.
     """
-    for text in cautions(scene, settings):
+    for text in [*idle(settings, given), *cautions(scene, settings)]:
         print(f"glrt: caution: {text}", file=sys.stderr)
     for text in () if is_quiet else slow_because(SceneFacts(scene), settings):
         print(f"glrt: slow: {text}", file=sys.stderr)
@@ -55,6 +58,17 @@ def dropped(samples: int) -> str:
     return (
         f"{counted(samples, 'sample')} were dropped: they were not finite, or exceeded the "
         "driver's loop limit. If there are many, the picture is biased: use fewer bounces."
+    )
+
+
+def even(image: Image) -> str:
+    """Return a paragraph if `--adaptive on` has changed nothing; else ""."""
+    settings = image.recipe.settings if image.recipe else None
+    if settings is None or settings.adaptive == "off" or image.samples > floor_of(settings):
+        return ""
+    return (
+        f"--adaptive on has no effect here: the first {floor_of(settings)} samples are the same "
+        "in all pixels. Give more --samples."
     )
 
 
