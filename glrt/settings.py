@@ -84,8 +84,8 @@ class RenderSettings(Frozen):
     adaptive: Annotated[Adaptive, Editable(Cost.RECOMPILE)] = Field(
         "off",
         description="on: pixels get samples in proportion to their noise, so that `samples` is the "
-        "mean over pixels; the noise is that of the neighbours of a pixel in its first samples: "
-        "64, or 256 with sampler sobol64, of which all pixels get the same",
+        "mean over pixels; the noise is that of the neighbours of a pixel in its first samples, "
+        "which all pixels get: 64, or 256 with sampler sobol64",
     )
     phong: Annotated[Phong | None, Editable(Cost.RESTART)] = Field(
         None,

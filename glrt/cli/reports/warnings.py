@@ -27,7 +27,7 @@ _LESS_SURE = {"naive", "nee"}  # methods that find more of the light by chance t
 def warn(scene: Scene, settings: Settings, given: Collection[str], is_quiet: bool) -> None:
     """Print what is known before a render: limits overstepped, and what makes it slow.
 
-    `given`: settings of the command line, of which some may have no effect. `is_quiet`: leave out
+    `given`: settings of the command line; those without effect are named. `is_quiet`: leave out
     what makes it slow, which leaves the picture as it is.
     """
     for text in [*idle(settings, given), *cautions(scene, settings)]:
