@@ -193,7 +193,7 @@ class Settings(RenderSettings):
     denoise: Annotated[Denoise, Editable(Cost.FREE)] = Field(
         "none",
         description="denoise the saved picture, with an estimate of the remaining error; oidn: "
-        "Intel's Open Image Denoise (`pip install 'glrt[denoise]'`); nlm: non-local means; auto: "
+        "Intel's Open Image Denoise, of the extra `denoise`; nlm: non-local means; auto: "
         "oidn if it is installed, else nlm",
     )
 
