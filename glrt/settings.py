@@ -84,7 +84,8 @@ class RenderSettings(Frozen):
     adaptive: Annotated[Adaptive, Editable(Cost.RECOMPILE)] = Field(
         "off",
         description="on: pixels get samples in proportion to their noise, so that `samples` is the "
-        "mean over pixels; the noise is that of the neighbours of a pixel in its first 64 samples",
+        "mean over pixels; the noise is that of the neighbours of a pixel in its first samples, "
+        "which all pixels get: 64, or 256 with sampler sobol64",
     )
     phong: Annotated[Phong | None, Editable(Cost.RESTART)] = Field(
         None,
@@ -192,7 +193,7 @@ class Settings(RenderSettings):
     denoise: Annotated[Denoise, Editable(Cost.FREE)] = Field(
         "none",
         description="denoise the saved picture, with an estimate of the remaining error; oidn: "
-        "Intel's Open Image Denoise (`pip install 'glrt[denoise]'`); nlm: non-local means; auto: "
+        "Intel's Open Image Denoise, of the extra `denoise`; nlm: non-local means; auto: "
         "oidn if it is installed, else nlm",
     )
 
@@ -218,6 +219,11 @@ class Settings(RenderSettings):
     def observations(self, samples: int) -> int:
         """Number of complete observations of `samples` per pixel."""
         return min(samples, NET) if self.scrambles else samples // self.block
+
+    @property
+    def least_known(self) -> int:
+        """Samples of a pixel from which an error is known: two observations."""
+        return 2 if self.scrambles else 2 * self.block
 
     @property
     def gathered(self) -> tuple[Aov, ...]:

@@ -15,6 +15,7 @@ import numpy as np
 
 from glrt.core import files
 from glrt.core.errors import UsageError
+from glrt.core.install import install
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -79,8 +80,7 @@ def check_matplotlib() -> None:
     """Raise UsageError if matplotlib is not installed."""
     if find_spec("matplotlib") is None:
         raise UsageError(
-            "Charts are drawn by matplotlib, which is not installed: pip install 'glrt[chart]', "
-            "or pip install matplotlib."
+            f"Charts are drawn by matplotlib, which is not installed: type `{install('chart')}`."
         )
 
 

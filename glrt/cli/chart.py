@@ -106,10 +106,16 @@ def run(arguments: argparse.Namespace) -> int:
             print(f"glrt: interrupted; {_left(outputs.folder)}.", file=sys.stderr)
             return INTERRUPTED + (interruption.signal or 0)
     if not arguments.quiet:
-        pages = [outputs.folder / page if outputs.folder else None, outputs.page]
-        written = file_names([path for path in pages if path])
-        print(f"Wrote {written} and the charts of {file_names([*scenes])}.", file=sys.stderr)
+        print(written(outputs, page, [*scenes]), file=sys.stderr)
     return 0
+
+
+def written(outputs: Outputs, page: str, scenes: Sequence[str]) -> str:
+    """Return the sentence about the files of charts; `page`: the name of that in the folder."""
+    if outputs.folder is None:
+        return f"Wrote {file_names([path for path in [outputs.page] if path])}."
+    pages = [outputs.folder / page, *([outputs.page] if outputs.page else [])]
+    return f"Wrote {file_names(pages)} and the charts of {file_names(scenes)}."
 
 
 def _left(folder: Path | None) -> str:

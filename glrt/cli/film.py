@@ -17,14 +17,14 @@ from glrt.cli.options import (
     error_limit,
     is_automatic,
 )
-from glrt.cli.reports.film_report import Reporter, named
-from glrt.cli.request import order
+from glrt.cli.reports.film_report import Reporter, named, warn_of
+from glrt.cli.request import Order, order
 from glrt.core.errors import RenderError, UsageError
 from glrt.core.text import counted
 from glrt.image.sources import STANDARD_INPUT, check_not_scene, shown
 from glrt.process import signals
 from glrt.process.command import fail
-from glrt.rendering.stopping import Interruption
+from glrt.rendering.stopping import Interruption, Limits
 from glrt.series.containers import check_container
 from glrt.series.film import Film
 from glrt.series.outputs import parse_output
@@ -167,6 +167,15 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.export:
         print(job(arguments.export, arguments.words, film.numbers, arguments.chunk), end="")
         return 0
+    film.output.check(film.numbers.start)
+    with film.locked():
+        film = _with_caustics(arguments, film)
+        warn_of(arguments, film)
+        return _rendered(arguments, film)
+
+
+def _rendered(arguments: argparse.Namespace, film: Film) -> int:
+    """Render the frames and write the film; returns the exit code."""
     reporter = Reporter(arguments, film)
     with Interruption().watched() as interruption:
         with reporter.watching() as watch:
@@ -211,16 +220,22 @@ def _film(arguments: argparse.Namespace) -> Film:
     if output.kind == "sheet":
         check_sheet(series, len(numbers))
     series.check()
-    options = RenderOptions(arguments.time, arguments.error, arguments.context, arguments.pipeline)
-    if arguments.export:
-        return Film(series, numbers, output, options, arguments.fps)
-    output.check(numbers.start)
-    first = series.still(0)
-    wanted = with_caustics(arguments, replace(wanted, scene=first.scene, settings=first.settings))
-    particles = {name: getattr(wanted.settings, name) for name in _OF_PARTICLES}
-    series = replace(series, settings=series.settings.model_copy(update=particles))
-    options = replace(options, decisions=wanted.decisions)
+    limits = arguments.time, arguments.error
+    ways = arguments.context, arguments.pipeline
+    options = RenderOptions(*limits, *ways, wanted.decisions)
     return Film(series, numbers, output, options, arguments.fps)
+
+
+def _with_caustics(arguments: argparse.Namespace, film: Film) -> Film:
+    """Return the film, with particles if a pilot of its first frame finds that they pay off."""
+    series, first = film.series, film.series.still(0)
+    limits, decisions = Limits(0, error=arguments.error), film.options.decisions
+    start = Order(first.scene, first.settings, limits, decisions=decisions)
+    wanted = with_caustics(arguments, start)
+    particles = {name: getattr(wanted.settings, name) for name in _OF_PARTICLES}
+    film.series = replace(series, settings=series.settings.model_copy(update=particles))
+    film.options = replace(film.options, decisions=wanted.decisions)
+    return film
 
 
 def _check(arguments: argparse.Namespace) -> None:

@@ -3,13 +3,22 @@
 import argparse
 from collections.abc import Iterator
 
-from glrt.cli.options import SCENE, add_context, add_files, add_pipeline, add_settings, error_limit
+from glrt.cli.options import (
+    SCENE,
+    add_context,
+    add_files,
+    add_pipeline,
+    add_settings,
+    error_limit,
+    settings_given,
+)
 from glrt.cli.request import check_limit, open_renderer, scene_and_settings
 from glrt.cli.simplify import add_simplify, check_simplify, simplify
 from glrt.core.errors import UsageError
 from glrt.core.text import counted
 from glrt.image.sources import recipe_of, shown
 from glrt.plan.explanation import Feature, explain
+from glrt.plan.idle_settings import idle
 from glrt.plan.omissions import left_out, omissions
 from glrt.plan.plan import prepare
 from glrt.plan.slow_scenes import slow_because
@@ -76,6 +85,8 @@ def run(arguments: argparse.Namespace) -> int:
         simplify(arguments, scene, equal)
         return 0
     _explain(arguments.scene, scene, settings, arguments.all)
+    for text in idle(settings, settings_given(arguments)):
+        print(f"\ncaution: {text}")
     if arguments.error is not None:
         from glrt.analysis.method_choice.advice import advise
 

@@ -73,11 +73,10 @@ def _report(arguments: argparse.Namespace, image: Image) -> None:
             f"{counted(image.samples, 'sample')}{known}.",
             file=sys.stderr,
         )
-    doubts = [] if arguments.quiet else [doubt(image), too_dark(image, arguments.outputs)]
-    for caution in filter(None, doubts):
+    for caution in filter(None, [doubt(image), too_dark(image, arguments.outputs)]):
         print(f"glrt: caution: {caution}", file=sys.stderr)
     ways = [way for way in (recipe.renderer, recipe.pipeline, recipe.tier) if " and " in way]
-    if ways and not arguments.quiet:
+    if ways:
         print(
             f"glrt: caution: the parts come from several drivers or kernels ({'; '.join(ways)}): "
             "rendered again by one, the picture may have other last bits.",

@@ -74,7 +74,7 @@ def add_outputs(parser: argparse.ArgumentParser) -> None:
 def add_summary(parser: argparse.ArgumentParser, unsaid: str) -> None:
     """Add `--json` and `--quiet`; `unsaid`: what --quiet prints, such as "no summary"."""
     parser.add_argument("--json", action="store_true", help="print figures as one line of JSON")
-    parser.add_argument("--quiet", action="store_true", help=f"print {unsaid}")
+    parser.add_argument("--quiet", action="store_true", help=f"print {unsaid}; cautions remain")
 
 
 def add_progress(parser: argparse.ArgumentParser) -> None:

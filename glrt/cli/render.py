@@ -20,8 +20,10 @@ from glrt.cli.options import (
     add_summary,
     error_limit,
     is_automatic,
+    settings_given,
 )
 from glrt.cli.reports.render_report import Done, report
+from glrt.cli.reports.warnings import warn
 from glrt.cli.request import Order, frame_of, opened, order
 from glrt.core.errors import RenderError, UsageError
 from glrt.core.text import counted
@@ -29,14 +31,11 @@ from glrt.image.image import Image, check_writable
 from glrt.image.partition import parse_part
 from glrt.image.sources import check_not_scene
 from glrt.plan.combinations import Way, check
-from glrt.plan.facts import SceneFacts
-from glrt.plan.slow_scenes import slow_because
 from glrt.process import signals
 from glrt.process.command import fail, since_start
 from glrt.rendering.render_parts import render_parts
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.stopping import Interruption, Limits, render_to_limit
-from glrt.scene.warnings import cautions
 
 DESCRIPTION = "Render a scene to files, without a window."
 EPILOG = (
@@ -130,17 +129,9 @@ def _run(arguments: argparse.Namespace) -> int:
         chosen = choose(arguments, wanted.scene, wanted.settings, wanted.limits)
         wanted = replace(wanted, **chosen._asdict())
     wanted = with_caustics(arguments, wanted)
-    if not arguments.quiet:
-        _warn(wanted)
+    warn(wanted.scene, wanted.settings, settings_given(arguments), arguments.quiet)
     with Interruption().watched() as interruption:
         return _render(arguments, wanted, interruption, load)
-
-
-def _warn(wanted: Order) -> None:
-    for text in cautions(wanted.scene, wanted.settings):
-        print(f"glrt: caution: {text}", file=sys.stderr)
-    for text in slow_because(SceneFacts(wanted.scene), wanted.settings):
-        print(f"glrt: slow: {text}", file=sys.stderr)
 
 
 def _render(
@@ -171,7 +162,7 @@ def _render(
         text = f"interrupted after {image.samples} samples, which are saved"
         return fail(text, _signal_code(interruption))
     if limits.error is not None and (estimate is None or estimate > limits.error):
-        counts = renderer.samples, renderer.settings.block
+        counts = image.samples, renderer.settings.least_known
         return fail(unreached(arguments.error, limits.error, estimate, *counts), 1)
     return 0
 
@@ -186,26 +177,28 @@ def _picture(
 
 
 def unreached(
-    wanted: float, noise: float, estimate: float | None, samples: int, block: int = 1
+    wanted: float, noise: float, estimate: float | None, samples: int, least: int = 2
 ) -> str:
     """Return the message about an `--error` of `wanted` that was not reached.
 
-    `noise`: error that the method's bias leaves to noise; `block`: samples of an observation.
+    `noise`: error that the method's bias leaves to noise; `least`: samples from which an error is
+    known.
     """
-    found = "unknown" if estimate is None else f"{estimate:.3g}"
-    if samples < 2 * block:
-        found += f" below {2 * block} samples"
-        found += " (2 with --sampler independent)" if block > 1 else ""
-    if noise < wanted:
-        found = (
-            f"after subtracting the bias of the method, its noise must be at most {noise:.3g}; "
-            f"it is {found}"
-        )
+    after = f"after {counted(samples, 'sample')}"
+    if estimate is None and samples < least:
+        known = f"{least} samples" + (" (2 with --sampler independent)" if least > 2 else "")
+        found = f"{after} the error is not known, which takes at least {known}"
     else:
-        found = f"it is {found}"
+        shown = "unknown" if estimate is None else f"{estimate:.3g}"
+        found = f"it is {shown} {after}"
+        if noise < wanted:
+            found = (
+                "after subtracting the bias of the method, its noise must be at most "
+                f"{noise:.3g}; {found}"
+            )
     return (
-        f"--error {wanted:g} was not reached: {found} after {counted(samples, 'sample')}. "
-        "The picture is saved; give more --samples or --time."
+        f"--error {wanted:g} was not reached: {found}. The picture is saved; give more --samples "
+        "or --time."
     )
 
 

@@ -11,6 +11,7 @@ from glrt.cli.options import (
     settings_given,
 )
 from glrt.core.errors import ContextError, UsageError
+from glrt.core.install import install
 from glrt.denoise.filters import with_filter
 from glrt.image.sources import STRICT, load_recipe
 from glrt.process.early import leave_at_once
@@ -44,7 +45,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 FIRST = "cornell"  # the scene that settings without a scene are for
-EXTRA = ("imgui_bundle", "glfw")  # modules that `pip install 'glrt[view]'` installs
+EXTRA = ("imgui_bundle", "glfw")  # modules that the extra `view` installs
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -71,7 +72,7 @@ def run(arguments: argparse.Namespace) -> int:
         if error.name not in EXTRA:
             raise
         raise UsageError(
-            f"the window needs the Python package {error.name}: type `pip install 'glrt[view]'`, "
+            f"the window needs the Python package {error.name}: type `{install('view')}`, "
             "or in a checkout `make view`. `glrt render` needs no window."
         ) from None
     except ImportError as error:  # a compiled package does not find a library of the system

@@ -7,6 +7,7 @@ Modules, each importing only what stands above it:
 - errors: error classes, with their exit codes
 - resources: folders of shaders and scenes, and of the user
 - files: atomic writes: a file is complete or absent
+- install: the command that installs an optional package
 - web_page: pages that need no network
 - threads: parts of a computation in several threads
 - stages: stages of long work, reported to who waits for it

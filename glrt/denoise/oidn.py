@@ -9,6 +9,7 @@ from importlib.util import find_spec
 import numpy as np
 
 from glrt.core.errors import UsageError
+from glrt.core.install import install
 from glrt.denoise.half import Half, Pixels
 
 PACKAGE = "pyoidn"
@@ -24,7 +25,7 @@ def check() -> None:
     if not is_installed():
         raise UsageError(
             f"--denoise oidn needs the Python package {PACKAGE}: type "
-            "`pip install 'glrt[denoise]'`, which has it for Linux on x86-64, or take "
+            f"`{install('denoise')}`, which has it for Linux on x86-64, or take "
             "--denoise nlm, which needs no package."
         )
 

@@ -15,6 +15,7 @@ from importlib.metadata import version
 from importlib.util import find_spec
 from typing import Any, NamedTuple
 
+from glrt.core.install import install
 from glrt.core.version import VERSION
 from glrt.doctor.install_hints import remedies
 from glrt.gpu.context import MOST_DEVICES, ROUTES
@@ -32,7 +33,7 @@ EXTRAS = {
 def lacking(has_compute: bool) -> list[str]:
     """Return a line for each missing feature; `has_compute`: whether compute shaders work."""
     missing = [
-        f"{purpose}: pip install 'glrt[{extra}]'"
+        f"{purpose}: {install(extra)}"
         for extra, (purpose, modules) in EXTRAS.items()
         if not all(map(find_spec, modules))
     ]

@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Unpack
 
 from glrt.core.errors import UsageError
+from glrt.core.install import install
 from glrt.notebook.live import HABITS, Live
 from glrt.notebook.sources import scene_of
 from glrt.scene.scene import Scene
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
 
 EDGE = 480  # pixels: longer edge of a picture, where the user gives no size
 REFUSED = ("crop", "aov", "denoise")  # settings that a live picture does without
-EXTRA = ("anywidget", "traitlets")  # modules that `pip install 'glrt[notebook]'` installs
+EXTRA = ("anywidget", "traitlets")  # modules that the extra `notebook` installs
 
 
 def show(
@@ -36,7 +37,7 @@ def show(
 
     The picture gets samples while a page shows it. All pictures of a process share an OpenGL
     context. `scene` and `settings` of the result are those at present, `image()` is the picture so
-    far, `close()` ends it. Needs `pip install 'glrt[notebook]'`.
+    far, `close()` ends it. Needs the extra `notebook`.
 
     Raises UsageError without that, for a wrong source and for a setting out of range, and the
     errors of `glrt.load`. The picture itself reports where OpenGL is missing.
@@ -55,7 +56,7 @@ def show(
         if missing.name not in EXTRA:
             raise
         raise UsageError(
-            f"show needs the Python package {missing.name}: type `pip install 'glrt[notebook]'` "
+            f"show needs the Python package {missing.name}: type `{install('notebook')}` "
             "and start the kernel again. `glrt.render` needs no package, and its pictures show "
             "themselves in notebooks."
         ) from None

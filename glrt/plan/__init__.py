@@ -17,5 +17,6 @@ Modules, each importing only what stands above it:
 - particle_refusals: why particles cannot be followed in a scene
 - combinations: table of options that work together
 - omissions: light that a method leaves out
+- idle_settings: settings that are given and change nothing
 - slow_scenes: reasons why a scene is slow, if the user can change them
 """

@@ -10,7 +10,9 @@ import time
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
-MISSING = "nvidia-ml-py is not installed: pip install 'glrt[gpu]'"
+from glrt.core.install import install
+
+MISSING = f"nvidia-ml-py is not installed: {install('gpu')}"
 _VENDOR = "NVIDIA "  # before the names of GPUs, except in old drivers
 _ENDING = "/SSE2"  # of the names that NVIDIA's OpenGL driver gives
 

@@ -48,6 +48,17 @@ def with_values(scene: SceneType, values: Mapping[Keys, Any], source: str) -> Sc
     return validated(type(scene), dict(scene) | update, source) if update else scene
 
 
+def holds_whole(scene: SceneFields, keys: Keys) -> bool:
+    """Return whether a value of a scene is a whole number.
+
+    Raises `SceneError` for a value that the scene lacks.
+    """
+    table = keys[0]
+    part: BaseModel = next(iter(_parts(getattr(scene, table), keys).values()))
+    holder = getattr(part, keys[2]) if _is_inner(keys) else part
+    return type(holder).model_fields[keys[-1]].annotation == _WHOLE
+
+
 def with_phong_of(still: SceneFields, moved: Iterable[Keys], settings: Settings) -> Settings:
     """Return settings with the constants of Phong's model of a still, if `moved` names some."""
     if not any(keys[:2] == PHONG for keys in moved):

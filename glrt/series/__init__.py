@@ -7,6 +7,7 @@ Modules, each importing only what stands above it:
 - outputs: files of the frames and of the film
 - kept_frames: frames that were rendered before
 - rendering: renders the frames that are missing
+- lock: keeps two films out of one folder
 - sheet: frames side by side in one picture
 - containers: frames as a WebP, GIF or MP4 file
 - film: a film: its frames, and the file made of them

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from glrt.core.errors import UsageError
 from glrt.core.files import write_whole
+from glrt.core.install import install
 
 if TYPE_CHECKING:
     from PIL.Image import Image as Picture
@@ -108,7 +109,7 @@ def _library() -> Any:
         import av
     except ModuleNotFoundError:
         raise UsageError(
-            f"an MP4 needs the Python package {PACKAGE}: type `pip install 'glrt[film]'`, or write "
-            "a .webp."
+            f"an MP4 needs the Python package {PACKAGE}: type `{install('film')}`, or "
+            "write a .webp."
         ) from None
     return av

@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Iterator
-from contextlib import suppress
+from contextlib import AbstractContextManager, nullcontext, suppress
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -15,6 +15,7 @@ from glrt.rendering.stopping import Interruption
 from glrt.scene.animation.tracks import Animation
 from glrt.scene.scenefile.toml import scene_to_dict
 from glrt.series.containers import write_container
+from glrt.series.lock import locked
 from glrt.series.outputs import Output
 from glrt.series.rendering import Frame, RenderOptions, Watch, render_frames
 from glrt.series.series import Series, describe
@@ -65,6 +66,15 @@ class Film:
         }
         return json.dumps(film, allow_nan=False)
 
+    def locked(self) -> AbstractContextManager[None]:
+        """Keep other commands from rendering frames of the same film or sheet.
+
+        Frames with files of their own are free: several commands may share them. Raises
+        `RenderError` if another command renders the film.
+        """
+        output = self.output
+        return nullcontext() if output.kind == "frames" else locked(output.folder, output.path)
+
     def render(self, interruption: Interruption, watch: Watch | None = None) -> Iterator[Frame]:
         """Render the frames that are missing; yields each, as `render_frames` does."""
         rest = self.options, interruption, watch
@@ -93,11 +103,10 @@ class Film:
             self._remove_frames()
 
     def _remove_frames(self) -> None:
-        """Remove the files of the frames, and their folder if it holds nothing else."""
+        """Remove the files of the frames."""
         with suppress(OSError):
             for frame in self.frames:
                 frame.file.unlink(missing_ok=True)
-            self.output.folder.rmdir()
 
     def _codes(self, frame: Frame) -> NDArray[np.uint8]:
         image, settings = Image.load(frame.file), self.series.settings

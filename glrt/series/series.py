@@ -8,14 +8,16 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from glrt.core.errors import UsageError
+from glrt.core.text import number
 from glrt.scene.camera import Camera
 from glrt.scene.frames import with_phong_of, with_values
 from glrt.scene.scene import Scene
 from glrt.scene.shapes.box import sine_and_cosine
-from glrt.series.sweeps import Sweep, is_setting, setting_changes
+from glrt.series.sweeps import Sweep, is_setting, is_whole, setting_changes
 from glrt.settings import Settings, settings_for
 
 TURN = 360.0  # degrees
+SHUTTER = ("camera", "shutter")
 SEEDS = 1 << 32
 
 
@@ -57,10 +59,39 @@ class Series:
             return min(self.sweeps[-1].steps, count)
         return math.ceil(math.sqrt(count))
 
+    @property
+    def idle_shutter(self) -> str:
+        """A caution about an open shutter that blurs nothing, since no frame moves; else ""."""
+        is_still = bool(self.sweeps) or self.turns is not None
+        if not (is_still and self.scene.animation and self.scene.camera.shutter):
+            return ""
+        kind = "sweep" if self.sweeps else "turntable"
+        return (
+            f"camera.shutter {number(self.scene.camera.shutter)} blurs nothing: a frame of a "
+            f"{kind} shows a moment of the [animation]. Leave out --{kind} to film what moves, or "
+            "leave out the shutter."
+        )
+
     def check(self) -> None:
-        """Raise the errors of `still` for the steps of sweeps; animations check their keys."""
-        for number in range(len(self.steps)):
-            self.still(number)
+        """Raise the errors of `still` for the steps of sweeps; animations check their keys.
+
+        Raises `UsageError` for a whole number that takes a step with a fraction.
+        """
+        for sweep in self.sweeps:
+            if sweep.keys == SHUTTER:
+                raise UsageError(
+                    f"--sweep {sweep.text}: all frames would be equal, as a frame of a sweep shows "
+                    "a moment, which a shutter does not blur. Give the shutter in the scene file, "
+                    "and film its [animation] without --sweep."
+                )
+            if sweep.broken is not None and is_whole(self.scene, sweep.keys):
+                raise UsageError(
+                    f"--sweep {sweep.text}: {sweep.name} is a whole number, and a step would be "
+                    f"{number(sweep.broken)} there. The nearest sweep of whole steps is --sweep "
+                    f"{sweep.whole}."
+                )
+        for frame in range(len(self.steps)):
+            self.still(frame)
 
     def still(self, number: int) -> Still:
         """Return a frame.

@@ -1,6 +1,6 @@
 """A contact sheet: frames side by side in one picture, each with its label."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -75,7 +75,30 @@ def sheet_of(cells: Sequence[Cell], columns: int) -> "Picture":
         x, y = GAP + column * (width + GAP), GAP + row * (height + lines * LINE + GAP)
         sheet.paste(Image.fromarray(cell.codes), (x, y))
         for line, text in enumerate(cell.lines):
-            while len(text) > 1 and draw.textlength(text, font) > width:
-                text = f"{text[:-2]}…"
-            draw.text((x, y + height + 2 + line * LINE), text, _INK, font)
+            short = fitting(text, lambda text: draw.textlength(text, font) <= width)
+            draw.text((x, y + height + 2 + line * LINE), short, _INK, font)
     return sheet
+
+
+def fitting(text: str, fits: Callable[[str], bool]) -> str:
+    """Return a label that fits: its words are shortened first, and its numbers last."""
+    words = text.split(" ")
+    for place, word in enumerate(words):
+        if _is_number(word):
+            continue
+        for letters in range(len(word), -1, -1):
+            words[place] = word[:letters] + "…" * (0 < letters < len(word))
+            if fits(short := " ".join(filter(None, words))):
+                return short
+    short = " ".join(filter(None, words))
+    while short and not fits(short):
+        short = f"{short[:-2]}…" if len(short) > 1 else ""
+    return short
+
+
+def _is_number(word: str) -> bool:
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True

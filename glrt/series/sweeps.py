@@ -1,15 +1,19 @@
 """Values from one number to another, for `--sweep KEY=FROM:TO:N`."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from glrt.core.text import number, quoted
 from glrt.scene.animation.tracks import PHONG, parse_target
+from glrt.scene.frames import holds_whole
+from glrt.scene.schema.fields import SceneFields
 from glrt.settings import Settings
 
 SETTINGS = "render"  # the table of a key that is a setting
 MOST_STEPS = 10_000
+_ROUNDING = 1e-14  # relative error of a step
 _OF_SIZE = ("width", "height")  # all frames of a film are of one size
 
 
@@ -31,14 +35,52 @@ class Sweep:
         """Return the value of a step, from 0; the first and the last are exact."""
         share = step / (self.steps - 1) if self.steps > 1 else 0.0
         ends = zip(self.start, self.end, strict=True)
-        found = tuple((1 - share) * low + share * high for low, high in ends)
+        found = tuple(_between(low, high, share) for low, high in ends)
         return found if len(found) > 1 else found[0]
+
+    @property
+    def text(self) -> str:
+        """The sweep, as the user writes it."""
+        return self._written(self.start, self.end, self.steps)
+
+    def _written(self, start: tuple[float, ...], end: tuple[float, ...], steps: int) -> str:
+        low, high = (",".join(map(_short, ends)) for ends in (start, end))
+        return f"{self.name}={low}:{high}:{steps}"
+
+    @property
+    def broken(self) -> float | None:
+        """The first value with a fraction; None if all are whole."""
+        values = (self.value(step) for step in range(self.steps))
+        numbers = (x for value in values for x in (value if isinstance(value, tuple) else (value,)))
+        return next((x for x in numbers if not x.is_integer()), None)
+
+    @property
+    def whole(self) -> str:
+        """The nearest sweep whose values are all whole, as the user writes it."""
+        low, high = (tuple(float(round(x)) for x in ends) for ends in (self.start, self.end))
+        gap = math.gcd(*(int(b - a) for a, b in zip(low, high, strict=True)))
+        wanted = self.steps - 1
+        fitting = (n for n in range(1, min(gap, MOST_STEPS - 1) + 1) if gap % n == 0)
+        nearest = min(fitting, key=lambda n: (abs(n - wanted), -n), default=wanted)
+        return self._written(low, high, nearest + 1 if wanted else 1)
 
     def label(self, step: int) -> str:
         """Return the last key and the value of a step, for people."""
         value = self.value(step)
         numbers = value if isinstance(value, tuple) else (value,)
-        return f"{self.keys[-1]} {' '.join(number(round(x, 6)) for x in numbers)}"
+        return f"{self.keys[-1]} {' '.join(map(_short, numbers))}"
+
+
+def _between(low: float, high: float, share: float) -> float:
+    """Return the number at a share of the way; a whole one if only rounding parts it from that."""
+    value = (1 - share) * low + share * high
+    near = float(round(value))
+    return near if abs(value - near) <= _ROUNDING * max(abs(low), abs(high)) else value
+
+
+def _short(value: float) -> str:
+    """Return a number for people: whole ones in full, others with six digits that count."""
+    return str(int(value)) if value.is_integer() else number(float(f"{value:.6g}"))
 
 
 def parse_sweep(text: str) -> Sweep:
@@ -92,8 +134,15 @@ def is_setting(keys: tuple[str, ...]) -> bool:
     return keys[0] == SETTINGS and keys[:2] != PHONG
 
 
+def is_whole(scene: SceneFields, keys: tuple[str, ...]) -> bool:
+    """Return whether a value is a whole number; `SceneError` if the scene lacks it."""
+    if is_setting(keys):
+        return Settings.model_fields[keys[1]].annotation is int
+    return keys[0] != "lights" and holds_whole(scene, keys)
+
+
 def setting_changes(values: dict[tuple[str, ...], Any]) -> dict[str, Any]:
-    """Return the settings among values by key; counts are whole numbers."""
+    """Return the settings among values by key; whole values of counts are integers."""
     found = {keys[1]: value for keys, value in values.items() if is_setting(keys)}
-    fields = Settings.model_fields
-    return {name: round(v) if fields[name].annotation is int else v for name, v in found.items()}
+    counts = {name for name in found if Settings.model_fields[name].annotation is int}
+    return {name: int(v) if name in counts and v.is_integer() else v for name, v in found.items()}

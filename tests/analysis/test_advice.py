@@ -57,6 +57,23 @@ def test_the_choice_follows_the_rule_for_ties_that_it_states(work: float, chosen
     assert f"Enough: `{chosen}`" in text
 
 
+@pytest.mark.parametrize(
+    ("sampler", "error", "said"),
+    [
+        ("sobol", 0.5, "with 32 samples (16 would do, but 32 are the fewest with a known error);"),
+        ("sobol", 0.1, "with 112 samples;"),
+        ("net", 0.5, "with 8 samples;"),
+        ("independent", 0.9, "with 2 samples;"),
+    ],
+)
+def test_the_samples_that_suffice_have_a_known_error(sampler: str, error: float, said: str) -> None:
+    """`glrt render --samples N` with these many can say that the error is reached."""
+    found = of_bias(0.0)
+    found = replace(found, settings=settings_for(found.settings, sampler=sampler))
+    ones = np.ones((1, 1, 3))
+    assert said in conclusion(Verdict(error, Reference(ones, ones, 1, 1), (found,), {}))
+
+
 def test_methods_beyond_the_loop_limit_are_named() -> None:
     ones = np.ones((1, 1, 3))
     verdict = Verdict(

@@ -18,10 +18,11 @@ from glrt.analysis.chart.experiment import Experiment
 from glrt.analysis.chart.rays import Rays
 from glrt.analysis.chart_page import axes_of, save_chart_page, small_picture
 from glrt.analysis.motion.report import section_of
-from glrt.analysis.outputs import prepare_outputs
+from glrt.analysis.outputs import Outputs, prepare_outputs
 from glrt.analysis.plot import Chart
 from glrt.analysis.plot import Curve as Drawn
 from glrt.analysis.variants import Variant
+from glrt.cli.chart import written
 from glrt.core.errors import UsageError
 from glrt.image.image import Image
 from glrt.lab import report
@@ -241,7 +242,7 @@ def test_a_page_alone_needs_no_matplotlib(tmp_path: Path, monkeypatch: pytest.Mo
     monkeypatch.setattr(plot, "find_spec", lambda _name: None)
     made, file = tmp_path / "made", tmp_path / "page.html"
     assert prepare_outputs(None, str(file), ["a.svg"]) == (None, file)
-    with pytest.raises(UsageError, match="pip install matplotlib"):
+    with pytest.raises(UsageError, match="pip install"):
         prepare_outputs(made, str(file), ["a.svg"])
     assert list(tmp_path.iterdir()) == []
 
@@ -261,3 +262,16 @@ def test_a_page_may_lie_in_the_folder_that_is_made(tmp_path: Path) -> None:
     for file in (made / "taken.html", tmp_path / "no" / "page.html", made / "page.svg"):
         assert f"Cannot write {file}" in refusal(tmp_path / "other", file)
     assert not (tmp_path / "other").exists()
+
+
+@pytest.mark.parametrize(
+    ("folder", "page", "said"),
+    [
+        (None, "a.html", "Wrote a.html."),
+        ("out", None, "Wrote out/chart.md and the charts of sky, lens."),
+        ("out", "a.html", "Wrote out/chart.md, a.html and the charts of sky, lens."),
+    ],
+)
+def test_only_what_was_written_is_named(folder: str | None, page: str | None, said: str) -> None:
+    outputs = Outputs(Path(folder) if folder else None, Path(page) if page else None)
+    assert written(outputs, "chart.md", ["sky", "lens"]) == said

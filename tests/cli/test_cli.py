@@ -170,24 +170,28 @@ def test_error_not_reached_exits_1_with_the_picture(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("room", "estimate", "samples", "block", "said"),
+    ("room", "estimate", "samples", "least", "said"),
     [
-        (0.3, 0.4, 64, 16, "it is 0.4 after 64 samples."),
-        (0.3, None, 1, 1, "it is unknown below 2 samples after 1 sample."),
-        (0.3, None, 27, 16, "it is unknown below 32 samples (2 with --sampler independent) after"),
+        (0.3, 0.4, 64, 32, "it is 0.4 after 64 samples."),
+        (0.3, None, 1, 2, "after 1 sample the error is not known, which takes at least 2 samples."),
+        (
+            *(0.25, None, 27, 32),
+            "after 27 samples the error is not known, which takes at least 32 samples (2 with "
+            "--sampler independent). The",
+        ),
         (
             0.25,
             0.28,
             64,
-            1,
+            2,
             "after subtracting the bias of the method, its noise must be at most 0.25; it is 0.28",
         ),
     ],
 )
 def test_an_error_not_reached_is_reported_as_it_was_asked_for(
-    room: float, estimate: float | None, samples: int, block: int, said: str
+    room: float, estimate: float | None, samples: int, least: int, said: str
 ) -> None:
-    told = unreached(0.3, room, estimate, samples, block)
+    told = unreached(0.3, room, estimate, samples, least)
     assert told.startswith(f"--error 0.3 was not reached: {said}")
 
 

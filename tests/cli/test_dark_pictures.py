@@ -47,7 +47,7 @@ def test_a_dim_picture_is_reported_with_the_exposure_that_shows_it(
 
 @pytest.mark.parametrize(
     ("light", "words", "name"),
-    [(0.5, (), "a.png"), (1e-4, (), "a.exr"), (1e-4, ("--quiet",), "a.png")],
+    [(0.5, (), "a.png"), (1e-4, (), "a.exr"), (0.5, ("--quiet",), "a.png")],
 )
 def test_other_pictures_are_not_reported(
     light: float,
@@ -58,6 +58,12 @@ def test_other_pictures_are_not_reported(
 ) -> None:
     assert render(tmp_path, light, *words, name=name) == 0
     assert "black" not in capsys.readouterr().err
+
+
+def test_quiet_hides_no_caution(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert render(tmp_path, 1e-4, "--quiet") == 0
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith("glrt: caution: 100 % of the picture is black")
 
 
 def test_a_scene_without_light_is_reported_once(

@@ -7,6 +7,7 @@ import pytest
 
 from glrt.analysis.method_choice import caustics, search
 from glrt.cli.main import main
+from glrt.core.install import install
 from glrt.denoise import oidn
 from glrt.gpu.context import Context
 from glrt.image.image import Image, read_recipe
@@ -61,7 +62,7 @@ def test_auto_is_reported_by_its_name(tmp_path: Path, monkeypatch: pytest.Monkey
     ("words", "said"),
     [
         (["--denoise", "nlm", "--samples", "63"], "--denoise needs 64 samples a pixel at least"),
-        (["--denoise", "oidn"], "pip install 'glrt[denoise]'"),
+        (["--denoise", "oidn"], install("denoise")),
         (["--denoise", "nlm", "--part", "1/2"], "A part of a render and --denoise do not go"),
         (["--denoise", "best"], "argument --denoise: invalid choice: 'best'"),
     ],

@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 
+from glrt.core.install import install
 from glrt.doctor import install_hints, route_process
 from glrt.doctor import report as doctor
 from glrt.doctor.report import Examination, examine, report
@@ -192,7 +193,7 @@ def test_what_the_machine_lacks_is_listed(
 ) -> None:
     assert "Not available here" not in told()
     monkeypatch.setattr(doctor, "find_spec", lambda name: None if name == "glfw" else name)
-    assert "Not available here: the window: pip install 'glrt[view]'." in told().splitlines()
+    assert f"Not available here: the window: {install('view')}." in told().splitlines()
     for examination in examined:
         monkeypatch.delitem(examination.found, "compute", raising=False)
     (first, second) = json.loads(told(as_json=True))["lacks"]

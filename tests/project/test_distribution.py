@@ -22,7 +22,7 @@ SUFFIXES = {
     "shaders_glsl": {".glsl", ".comp", ".vert", ".frag"},
     "scenes": {".toml", ".ply", ".glb", ".npy", ".jpg"},
 }
-EXTRA = re.compile(r"glrt\[(\w+)\]")  # as in `pip install 'glrt[view]'`
+EXTRA = re.compile(r"'(?:glrt|\.)\[(\w+)\]")  # as in `pip install '.[view]'`
 INFO = f"glrt-{VERSION}.dist-info"
 LICENSES = {
     f"{INFO}/licenses/{name}" for name in ("LICENSE", "glrt/scene/lights/clear_sky_license.txt")

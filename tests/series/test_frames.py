@@ -113,6 +113,39 @@ def test_sweeps_are_exact_at_their_ends_and_fill_rows() -> None:
     assert fifth.label == "color 0.4 0.4 0.4, bounces 1"
 
 
+@pytest.mark.parametrize(
+    ("text", "instead"),
+    [
+        ("render.bounces=1:2:3", "render.bounces=1:2:2"),
+        ("render.samples=1:11:5", "render.samples=1:11:6"),
+        ("render.bounces=0.4:8:2", "render.bounces=0:8:2"),
+        ("materials.glass.priority=1:4:3", "materials.glass.priority=1:4:4"),
+        ("render.bounces=1.5:3:1", "render.bounces=2:3:1"),
+    ],
+)
+def test_a_whole_number_takes_no_steps_between(text: str, instead: str) -> None:
+    """A label would name a value that is not rendered."""
+    scene = load("cornell")
+    series = Series(scene, SMALL, sweeps=(parse_sweep(text),))
+    with pytest.raises(UsageError, match="is a whole number") as told:
+        series.check()
+    key = text.partition("=")[0]
+    assert key in str(told.value)
+    assert str(told.value).endswith(f"--sweep {instead}.")
+    Series(scene, SMALL, sweeps=(parse_sweep(instead),)).check()
+
+
+def test_a_label_shows_the_value_that_is_rendered() -> None:
+    small = parse_sweep("materials.ball.roughness=1e-8:3e-8:3")
+    assert [small.label(step) for step in range(3)] == [
+        "roughness 1e-08",
+        "roughness 2e-08",
+        "roughness 3e-08",
+    ]
+    assert parse_sweep("render.seed=1234567:1234569:3").label(1) == "seed 1234568"
+    assert parse_sweep("camera.fov=-0.3:0.6:4").label(1) == "fov 0"
+
+
 def test_a_sweep_out_of_range_is_found_before_it_renders() -> None:
     series = Series(load("cornell"), SMALL, sweeps=(parse_sweep("materials.glass.ior=0:2:3"),))
     with pytest.raises(SceneError, match=r"^frame 0: materials.glass: ior must be"):

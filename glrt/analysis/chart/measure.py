@@ -121,7 +121,7 @@ def _run(
     left out where that is asked for.
     """
     is_denoised = renderer.settings.denoise != "none"
-    least = max(LEAST_SAMPLES, 2 * renderer.settings.block)  # two observations have an error
+    least = max(LEAST_SAMPLES, renderer.settings.least_known)
     looks: list[Look] = []
     spent = 0.0
     samples = 1

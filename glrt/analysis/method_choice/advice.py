@@ -217,10 +217,13 @@ def _finding(verdict: Verdict, least_samples: int) -> str:
             "seconds, is too noisy to decide. Ask for a larger error."
         )
     settings, (width, height) = best.settings, best.settings.size
-    samples = max(best.samples_to(verdict.error) or 0, least_samples)
+    needed, known = best.samples_to(verdict.error) or 0, settings.least_known
+    samples = max(needed, least_samples, known)
+    why = f" ({needed} would do, but {known} are the fewest with a known error)"
     return (
         f"Enough: `{settings.method}` with {_count(settings.bounces, 'bounce')} reaches "
-        f"{percent(verdict.error)} with {_count(samples, 'sample')}; about "
+        f"{percent(verdict.error)} with {_count(samples, 'sample')}"
+        f"{why if needed < samples == known else ''}; about "
         f"{_seconds(best.seconds_of(samples))} s at {width} x {height}, as timed now."
     )
 

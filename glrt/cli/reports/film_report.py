@@ -9,15 +9,20 @@ from typing import Any
 
 import numpy as np
 
+from glrt.cli.options import settings_given
 from glrt.cli.reports.progress import film_bar, film_lines
+from glrt.cli.reports.warnings import warn
 from glrt.core.text import counted
 from glrt.process.command import file_names, print_figures
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.stopping import Limits
+from glrt.scene.frames import with_values
 from glrt.series.film import Film
 from glrt.series.rendering import Frame, Watch
+from glrt.series.sweeps import is_setting
 
 MOST_NAMED = 10
+_KEPT = "each frame has a file of its own, which stays"
 
 
 class Reporter:
@@ -81,9 +86,33 @@ class Reporter:
                 f"{new or 'none'} of them rendered now, in {seconds:.1f} s.",
                 file=sys.stderr,
             )
-            if black := [frame for frame in film.frames if frame.is_black]:
-                text = f"{named(black)}: all is black. Does a wall stand before the camera?"
-                print(f"glrt: caution: {text}", file=sys.stderr)
+        if black := [frame for frame in film.frames if frame.is_black]:
+            text = f"{named(black)}: all is black. Does a wall stand before the camera?"
+            print(f"glrt: caution: {text}", file=sys.stderr)
+
+
+def warn_of(arguments: argparse.Namespace, film: Film) -> None:
+    """Print the cautions of a series and of its first frame."""
+    series = film.series
+    scene, settings, _ = series.still(0)
+    idle = [
+        f"{option} has no effect here: {why}."
+        for option, is_idle, why in (
+            ("--fps", film.own_fps and film.output.kind != "container", "no film is written"),
+            ("--keep-frames", arguments.keep_frames and film.output.kind == "frames", _KEPT),
+            ("--chunk", arguments.chunk != 1, "no --export divides the frames into tasks"),
+        )
+        if is_idle
+    ]
+    for text in filter(None, [*idle, series.idle_shutter]):
+        print(f"glrt: caution: {text}", file=sys.stderr)
+    if series.idle_shutter:
+        scene = with_values(scene, {("camera", "shutter"): 0.0}, "")
+    given = {
+        *settings_given(arguments),
+        *(it.keys[-1] for it in series.sweeps if is_setting(it.keys)),
+    }
+    warn(scene, settings, given, arguments.quiet)
 
 
 def named(frames: Sequence[Frame]) -> str:

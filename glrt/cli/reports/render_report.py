@@ -4,7 +4,7 @@ import argparse
 import sys
 from typing import Any, NamedTuple
 
-from glrt.cli.reports.warnings import clipped, doubt, too_dark
+from glrt.cli.reports.warnings import clipped, doubt, dropped, even, too_dark
 from glrt.core.text import counted
 from glrt.denoise.filters import least_samples
 from glrt.image.image import Image
@@ -57,19 +57,15 @@ def report(arguments: argparse.Namespace, done: Done) -> None:
             f"({done.rate / 1e6:.2f} million samples/s){_errors(done.image)}.",
             file=sys.stderr,
         )
-        if dropped := done.dropped:
-            print(
-                f"{dropped:,} samples were dropped: they were not finite, or exceeded the driver's "
-                "loop limit. If there are many, the picture is biased: use fewer bounces.",
-                file=sys.stderr,
-            )
     doubts = [
+        dropped(done.dropped),
+        even(done.image),
         clipped(renderer.lost_particles.clipped),
         doubt(done.image),
         _noisy(done.image),
         too_dark(done.image, arguments.outputs),
     ]
-    for text in filter(None, [] if arguments.quiet else doubts):
+    for text in filter(None, doubts):
         print(f"glrt: caution: {text}", file=sys.stderr)
     if not arguments.quiet and (missing := omissions(renderer.plan.facts, renderer.settings)):
         print(left_out(renderer.settings, missing), file=sys.stderr)

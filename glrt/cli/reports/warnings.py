@@ -1,20 +1,39 @@
-"""Cautions of the commands about a picture that may be wrong."""
+"""Cautions of the commands, on stderr: about a scene, and about a picture that may be wrong."""
 
 import math
-from collections.abc import Sequence
+import sys
+from collections.abc import Collection, Sequence
 from pathlib import Path
 
 import numpy as np
 
 from glrt.core.text import counted
+from glrt.image.allotment import floor_of
 from glrt.image.image import Image
 from glrt.image.tonemap import expose_and_encode
-from glrt.scene.warnings import is_dark
+from glrt.plan.facts import SceneFacts
+from glrt.plan.idle_settings import idle
+from glrt.plan.slow_scenes import slow_because
+from glrt.scene.scene import Scene
+from glrt.scene.warnings import cautions, is_dark
+from glrt.settings import Settings
 
 _BLACK = 3  # 8-bit codes below it look black on a screen
 _MOSTLY = 0.99  # share of the pixels
 _SHOWN = 0.5  # radiance that is bright and not clipped at exposure 0
 _LESS_SURE = {"naive", "nee"}  # methods that find more of the light by chance than `mis`
+
+
+def warn(scene: Scene, settings: Settings, given: Collection[str], is_quiet: bool) -> None:
+    """Print what is known before a render: limits overstepped, and what makes it slow.
+
+    `given`: settings of the command line; those without effect are named. `is_quiet`: leave out
+    what makes it slow, which leaves the picture as it is.
+    """
+    for text in [*idle(settings, given), *cautions(scene, settings)]:
+        print(f"glrt: caution: {text}", file=sys.stderr)
+    for text in () if is_quiet else slow_because(SceneFacts(scene), settings):
+        print(f"glrt: slow: {text}", file=sys.stderr)
 
 
 def doubt(image: Image) -> str:
@@ -29,6 +48,27 @@ def doubt(image: Image) -> str:
         f"the estimated error, {100 * image.error:.2g} %, is not to be believed: much of it stands "
         "in pixels that one or two bright samples have lit, and the true error may be several "
         f"times as large. Use more --samples{other}."
+    )
+
+
+def dropped(samples: int) -> str:
+    """Return a paragraph if samples or particles were dropped; else ""."""
+    if not samples:
+        return ""
+    return (
+        f"{counted(samples, 'sample')} were dropped: they were not finite, or exceeded the "
+        "driver's loop limit. If there are many, the picture is biased: use fewer bounces."
+    )
+
+
+def even(image: Image) -> str:
+    """Return a paragraph if `--adaptive on` has changed nothing; else ""."""
+    settings = image.recipe.settings if image.recipe else None
+    if settings is None or settings.adaptive == "off" or image.samples > floor_of(settings):
+        return ""
+    return (
+        f"--adaptive on has no effect here: the first {floor_of(settings)} samples are the same "
+        "in all pixels. Give more --samples."
     )
 
 

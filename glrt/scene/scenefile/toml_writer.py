@@ -7,6 +7,7 @@ from typing import Any
 
 from glrt.core.errors import SceneError, UsageError
 from glrt.core.files import write_whole
+from glrt.core.install import install
 from glrt.scene.loading.file_copies import copy_files
 from glrt.scene.loading.scene_files import hashes_of, with_hashes
 from glrt.scene.scene import Scene
@@ -89,8 +90,8 @@ def _changed(text: str, before: Table, after: Table, short: Table) -> str:
         import tomlkit
     except ModuleNotFoundError:
         raise UsageError(
-            "keeping the comments of a scene file needs the Python package tomlkit: type `pip "
-            "install 'glrt[view]'`, or save under another name."
+            "keeping the comments of a scene file needs the Python package tomlkit: type "
+            f"`{install('view')}`, or save under another name."
         ) from None
     try:
         document = tomlkit.parse(text)

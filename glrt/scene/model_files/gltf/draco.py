@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glrt.core.errors import ContentError
+from glrt.core.install import install
 from glrt.scene.meshes.triangle_meshes import MOST_TRIANGLES
 from glrt.scene.model_files.gltf.accessors import Floats, Ints
 from glrt.scene.model_files.gltf.document import Document
@@ -51,7 +52,7 @@ def _decoded(content: bytes, here: str) -> Any:
     except ImportError:
         raise NotInstalledError(
             "is compressed by Draco, and DracoPy, which unpacks it, is not installed. Install it "
-            "by: pip install 'glrt[draco]'"
+            f"by: {install('draco')}"
         ) from None
     try:
         found = DracoPy.decode(content)
