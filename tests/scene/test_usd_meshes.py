@@ -8,8 +8,10 @@ import pytest
 import glrt
 from tests.support.gltf_files import Builder
 from tests.support.usd_files import (
+    BINDS,
     COORDINATES,
     SQUARE,
+    bound,
     layer,
     left_out,
     moved,
@@ -79,35 +81,36 @@ def test_a_square_is_as_in_a_glb_file_to_the_bit(tmp_path: Path) -> None:
     assert np.array_equal(*pictures)
 
 
-@pytest.mark.parametrize(
-    ("interpolation", "values", "expected"),
-    [
-        ("vertex", "(1, 0, 0), (0, 1, 0), (0, 0, 1), (0, -1, 0)", [0, 1, 2, 3]),
-        ("varying", "(1, 0, 0), (0, 1, 0), (0, 0, 1), (0, -1, 0)", [0, 1, 2, 3]),
-        ("faceVarying", "(1, 0, 0), (0, 1, 0), (0, 0, 1), (0, -1, 0)", [0, 1, 2, 3]),
-        ("uniform", "(0, 0, 1)", [2, 2, 2, 2]),
-        ("constant", "(0, -1, 0)", [3, 3, 3, 3]),
-    ],
-)
-def test_normals_have_their_interpolation(
-    tmp_path: Path, interpolation: str, values: str, expected: list[int]
-) -> None:
+INTERPOLATIONS = {  # values, and which of NORMALS each corner has
+    "vertex": ("(1, 0, 0), (0, 1, 0), (0, 0, 1), (0, -1, 0)", [0, 1, 2, 3]),
+    "varying": ("(0, 1, 0), (1, 0, 0), (0, 0, 1), (0, -1, 0)", [1, 0, 2, 3]),
+    "faceVarying": ("(1, 0, 0), (0, 1, 0), (0, 0, 1), (0, 0, 1)", [0, 1, 2, 2]),
+    "uniform": ("(0, 0, 1)", [2, 2, 2, 2]),
+    "constant": ("(0, -1, 0)", [3, 3, 3, 3]),
+}
+NORMALS = np.array([(1, 0, 0), (0, 1, 0), (0, 0, 1), (0, -1, 0)])
+
+
+def test_normals_have_their_interpolation(tmp_path: Path) -> None:
     """Each corner has the normal that the file gives it."""
-    given = np.array([(1, 0, 0), (0, 1, 0), (0, 0, 1), (0, -1, 0)])
-    more = f'normal3f[] normals = [{values}] (\ninterpolation = "{interpolation}"\n)'
-    mesh = scene_of(tmp_path, layer(square(more=more))).meshes[0].triangles_of_file
+    text = ""
+    for number, (interpolation, (values, _)) in enumerate(INTERPOLATIONS.items()):
+        given = f'normal3f[] normals = [{values}] (\ninterpolation = "{interpolation}"\n)\n'
+        text += square(f"s{number}", given + moved(10 * number, 0, 0))
+    mesh = scene_of(tmp_path, layer(text)).meshes[0].triangles_of_file
     assert mesh.normals is not None
-    for point, normal in zip(POINTS, given[expected], strict=True):
-        at = (mesh.vertices == point).all(axis=1)
-        assert (mesh.normals[at] == normal).all()
+    for number, (_, expected) in enumerate(INTERPOLATIONS.values()):
+        for point, normal in zip(POINTS, NORMALS[expected], strict=True):
+            at = (mesh.vertices == np.add(point, (10 * number, 0, 0))).all(axis=1)
+            assert at.any()
+            assert (mesh.normals[at] == normal).all()
 
 
 def test_left_handed_polygons_face_the_other_way(tmp_path: Path) -> None:
     """Their corners run clockwise, seen from outside."""
-    usual = scene_of(tmp_path, layer(square()))
-    turned = scene_of(tmp_path, layer(square(more='uniform token orientation = "leftHanded"')))
-    assert np.allclose(facing(usual), (0, 1, 0))
-    assert np.allclose(facing(turned), (0, -1, 0))
+    turned = square("turned", 'uniform token orientation = "leftHanded"\n' + moved(9, 0, 0))
+    scene = scene_of(tmp_path, layer(square() + turned))
+    assert np.allclose(facing(scene), [(0, 1, 0)] * 2 + [(0, -1, 0)] * 2)
 
 
 def test_concave_polygons_keep_their_outline_and_holes_are_empty(tmp_path: Path) -> None:
@@ -133,14 +136,13 @@ def test_subsets_of_faces_have_their_own_materials(tmp_path: Path) -> None:
     uniform token subdivisionScheme = "none"
     rel material:binding = </red>
     """
-    binds = 'prepend apiSchemas = ["MaterialBindingAPI"]'
     subset = """
     uniform token elementType = "face"
     uniform token familyName = "materialBind"
     int[] indices = [1]
     rel material:binding = </blue>
     """
-    mesh = prim("Mesh", "three", body + prim("GeomSubset", "second", subset, binds), binds)
+    mesh = prim("Mesh", "three", body + prim("GeomSubset", "second", subset, BINDS), BINDS)
     scene = scene_of(tmp_path, layer(mesh + surface("red", "") + surface("blue", "")))
     assert areas(scene) == pytest.approx({"red": 1.5, "blue": 2.0})
 
@@ -233,28 +235,30 @@ def test_colors_of_meshes_without_a_material_are_shown(tmp_path: Path) -> None:
     assert np.allclose(mesh.triangles.colors, (0.5, 0.25, 0.125))
 
 
-@pytest.mark.parametrize(
-    ("kind", "body", "low", "high", "area"),
-    [
-        ("Cube", "double size = 2", (-1, -1, -1), (1, 1, 1), 24),
-        ("Sphere", "double radius = 2", (-2, -2, -2), (2, 2, 2), 16 * np.pi),
-        ("Cylinder", 'double height = 4\nuniform token axis = "X"', (-2, -1, -1), (2, 1, 1), 10 * np.pi),
-        ("Cone", "double height = 4", (-1, -1, -2), (1, 1, 2), np.pi * (1 + np.sqrt(17))),
-        ("Capsule", "double radius = 1\ndouble height = 2", (-1, -1, -2), (1, 1, 2), 8 * np.pi),
-        ("Plane", 'double width = 2\ndouble length = 6\nuniform token axis = "Y"',
-         (-1, 0, -3), (1, 0, 3), 12),
-    ],
-)  # fmt: skip
-def test_solids_have_their_size_and_face_outwards(
-    tmp_path: Path, kind: str, body: str, low: object, high: object, area: float
-) -> None:
+SOLIDS = {  # keys, and the area
+    "Cube": ("double size = 2", 24),
+    "Sphere": ("double radius = 2", 16 * np.pi),
+    "Cylinder": ('double height = 4\nuniform token axis = "X"', 10 * np.pi),
+    "Cone": ("double height = 4", np.pi * (1 + np.sqrt(17))),
+    "Capsule": ("double radius = 1\ndouble height = 2", 8 * np.pi),
+    "Plane": ('double width = 2\ndouble length = 6\nuniform token axis = "Y"', 12),
+}
+HALVES = [(1, 1, 1), (2, 2, 2), (2, 1, 1), (1, 1, 2), (1, 1, 2), (1, 0, 3)]
+
+
+def test_solids_have_their_size_and_face_outwards(tmp_path: Path) -> None:
     """64 sides around: areas to 0.5 %."""
-    scene = scene_of(tmp_path, layer(prim(kind, "solid", body)))
-    mesh = scene.meshes[0].triangles_of_file
-    assert np.allclose(mesh.box, (low, high), atol=1e-6)
-    assert sum(areas(scene).values()) == pytest.approx(area, rel=5e-3)
-    if kind == "Plane":
-        assert np.allclose(facing(scene), (0, 1, 0))
-    else:
-        middles = mesh.vertices[mesh.faces].mean(axis=1)
-        assert ((facing(scene) * middles).sum(axis=1) > 0).all()
+    text = ""
+    for number, (kind, (body, _)) in enumerate(SOLIDS.items()):
+        own = bound(f"/of{kind}") + moved(10 * number, 0, 0)
+        text += prim(kind, kind, f"{body}\n{own}", BINDS) + surface(f"of{kind}", "")
+    scene = scene_of(tmp_path, layer(text))
+    expected = {f"of{kind}": area for kind, (_, area) in SOLIDS.items()}
+    assert areas(scene) == pytest.approx(expected, rel=5e-3)
+    for number, (mesh, half) in enumerate(zip(scene.meshes, HALVES, strict=True)):
+        points = np.subtract(mesh.triangles.vertices, (10 * number, 0, 0))
+        assert np.allclose([points.min(axis=0), points.max(axis=0)], [np.negative(half), half])
+        corners = points[mesh.triangles.faces]
+        across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        middles = corners.mean(axis=1) if half[1] else np.array([[0, 1, 0]])
+        assert ((across * middles).sum(axis=1) > 0).all()

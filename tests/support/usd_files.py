@@ -43,7 +43,7 @@ def placed(*ops: tuple[str, str, str]) -> str:
     """Transforms: type, name and value each, the outermost first."""
     lines = [f"{kind} xformOp:{name} = {value}" for kind, name, value in ops]
     names = ", ".join(f'"xformOp:{name}"' for _, name, _ in ops)
-    return "\n".join([*lines, f"uniform token[] xformOpOrder = [{names}]"]) + "\n"
+    return "\n".join(["", *lines, f"uniform token[] xformOpOrder = [{names}]"]) + "\n"
 
 
 def moved(x: float, y: float, z: float) -> str:
@@ -87,7 +87,7 @@ def reader(name: str = "st", node: str = "st") -> str:
 
 def square(name: str = "square", more: str = "", material: str = "") -> str:
     """A square in y = 0, from -1 to 1, that faces up."""
-    body = SQUARE + more + (bound(material) if material else "")
+    body = f"{SQUARE}{more}\n" + (bound(material) if material else "")
     return prim("Mesh", name, body, BINDS if material else "")
 
 

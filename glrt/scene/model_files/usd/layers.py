@@ -69,6 +69,9 @@ def _dependency(layer: Sdf.Layer, named: str, folder: Folder) -> Sdf.Layer | Non
         folder.left.name("layers by expressions", named)
         return None
     path = layer.ComputeAbsolutePath(named)
+    if not os.path.isabs(path):  # nothing is there
+        folder.left.name("layers that cannot be read", named)
+        return None
     if not folder.may_read(file_of(path)):
         folder.left.name("layers outside of the folder (--allow-outside)", named)
         return None

@@ -81,7 +81,7 @@ class Looks:
     def _look(self, material: UsdShade.Material) -> UsdLook | None:
         shader = material.ComputeSurfaceSource()[0]
         if not shader:
-            is_materialx = bool(material.ComputeSurfaceSource(["mtlx"])[0])
+            is_materialx = bool(material.ComputeSurfaceSource("mtlx")[0])
             self._left.add("MaterialX networks" if is_materialx else "materials without a surface")
             return None
         if shader.GetShaderId() != _SURFACE:

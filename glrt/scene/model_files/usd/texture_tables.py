@@ -4,6 +4,7 @@ https://openusd.org/release/spec_usdpreviewsurface.html
 """
 
 import math
+import os
 import zipfile
 from pathlib import Path
 from typing import Any
@@ -123,10 +124,11 @@ class Textures:
         """Return the path of an image, also where nothing is at it."""
         if asset.resolvedPath:
             return str(asset.resolvedPath)
-        for spec in attribute.GetPropertyStack(self._time):
-            if spec.layer.realPath:
-                return str(spec.layer.ComputeAbsolutePath(asset.path))
-        return str(asset.path)
+        layers = [spec.layer for spec in attribute.GetPropertyStack(self._time)]
+        file = next((it.realPath for it in layers if it.realPath), str(self._folder.root))
+        if file.lower().endswith(".usdz"):
+            return str(Ar.JoinPackageRelativePath([file, asset.path]))
+        return os.path.join(os.path.dirname(file), asset.path)
 
     def path_of(self, attribute: Usd.Attribute) -> str | None:
         """Return the path of the image that an attribute names; None if it names none."""
