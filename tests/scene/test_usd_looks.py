@@ -43,7 +43,7 @@ def with_looks(folder: Path, **looks: str) -> glrt.Scene:
 
 
 def test_numbers_of_materials_are_kept(tmp_path: Path) -> None:
-    """And those that the file does not state are those of UsdPreviewSurface."""
+    """Others have the defaults of UsdPreviewSurface."""
     inputs = """
     color3f inputs:diffuseColor = (0.8, 0.4, 0.2)
     float inputs:metallic = 0.25
@@ -129,7 +129,7 @@ def painted(image: str) -> str:
 
 
 def test_textures_have_their_channels_factors_and_edges(tmp_path: Path) -> None:
-    """Of an image next to the file."""
+    """The image lies next to the file."""
     (tmp_path / "dots.png").write_bytes(png(COLORS))
     scene = scene_of(tmp_path, painted("dots.png"))
     paint = look(scene, "paint")

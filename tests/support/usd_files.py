@@ -99,7 +99,7 @@ def scene_of(folder: Path, text: str, **rules: Any) -> glrt.Scene:
 
 
 def left_out(scene: glrt.Scene) -> str:
-    """What is left out of the file of a scene, in words."""
+    """The parts of the file of a scene that are left out, in words."""
     return "; ".join(scene.meshes[0].file.unread)
 
 

@@ -59,7 +59,7 @@ def _of_mesh(mesh: UsdGeom.Mesh, time: Usd.TimeCode, left: LeftOut) -> Polygons 
     kept[holes[(holes >= 0) & (holes < len(counts))]] = False
     scheme = mesh.GetSubdivisionSchemeAttr().Get(time)
     if scheme != "none":
-        left.add("subdivision of meshes, of which the control mesh is shown")
+        left.add("subdivision of meshes (their control meshes are shown)")
     is_mirrored = mesh.GetOrientationAttr().Get(time) == "leftHanded"
     bare = Polygons(points, corners, counts, kept, is_mirrored, None, scheme == "none")
     return bare._replace(normals=_normals(mesh, bare, time, left))
