@@ -13,7 +13,10 @@ from glrt.scene.scenefile.catalog import find
 from glrt.scene.warnings import cautions
 from glrt.settings import settings_for
 
-DESCRIPTION = "Write the scene of a model (.glb, .gltf, .obj, .ply or .stl) as a scene file."
+DESCRIPTION = (
+    "Write the scene of a model (.glb, .gltf, .obj, .ply, .stl, .usd, .usda, .usdc or .usdz) as a "
+    "scene file."
+)
 EPILOG = (
     "The scene has a mesh for each material of the model, its camera and lights or usual ones, and "
     "renders to the same picture as the model. If the model is animated, the scene plays its first "
@@ -40,7 +43,8 @@ def run(arguments: argparse.Namespace) -> int:
     """Write the scene file and return 0; UsageError if the file is not a model."""
     if not is_model(Path(arguments.model)):
         raise UsageError(
-            f"{arguments.model} is no model: its name must end in .glb, .gltf, .obj, .ply or .stl."
+            f"{arguments.model} is no model: its name must end in "
+            ".glb, .gltf, .obj, .ply, .stl, .usd, .usda, .usdc or .usdz."
         )
     rules = {"allow_outside": arguments.allow_outside, "variant": arguments.variant}
     scene = load(find(arguments.model), **rules)

@@ -48,8 +48,8 @@ def load(
     """Load the scene of a TOML file, of a name in the folder `scenes`, of a model or of a picture.
 
     A path comes first, then a name, which has no suffix and may contain folders, as
-    `methods/glass`. A model is a glTF, OBJ, PLY or STL file. `-` is a TOML file on standard input.
-    Files that the scene names are read from its folder, from that of the picture, or from
+    `methods/glass`. A model is a glTF, USD, OBJ, PLY or STL file. `-` is a TOML file on standard
+    input. Files that the scene names are read from its folder, from that of the picture, or from
     `assets_from`; files outside of it need `allow_outside`. Files of a picture must be unchanged
     since it was made, unless `accept_changed`. `variant` names a variant of the materials of a glTF
     file that is given as a model. Raises `SceneError` with one paragraph if there is

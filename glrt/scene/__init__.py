@@ -11,7 +11,7 @@ Modules, each importing only what stands above it:
 - shapes: shapes, one file for each kind
 - lights: background, sun, clear sky, and the cone of a lamp
 - materials: materials, one file for each type
-- model_files: files of models: glTF, OBJ, PLY and STL
+- model_files: files of models: glTF, USD, OBJ, PLY and STL
 - density: grids by which the density of a medium varies
 - transfer: transfer functions of scientific volumes
 - medium: media between surfaces

@@ -80,7 +80,7 @@ class Camera(Value):
     )
     file: NamedCamera | None = Field(
         None,
-        description="path of a model, .glb or .gltf, whose camera gives position, look_at, up and "
+        description="path of a model, glTF or USD, whose camera gives position, look_at, up and "
         "fov where they are not given, and the shape of the picture; default: none",
     )
     node: Name | None = Field(

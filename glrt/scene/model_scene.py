@@ -19,7 +19,8 @@ from glrt.scene.materials.lambertian import Lambertian
 from glrt.scene.meshes.triangle_meshes import Poses, TriangleMesh
 from glrt.scene.model_files.gltf.cameras import FileCamera, camera_of, left_out
 from glrt.scene.model_files.gltf.lights import lights_of
-from glrt.scene.model_files.mesh_formats import FORMATS, GLTF
+from glrt.scene.model_files.mesh_formats import AS_GLTF, FORMATS
+from glrt.scene.model_files.usd.document import UsdDocument
 from glrt.scene.scene import Scene
 from glrt.scene.schema.validation import validated
 from glrt.scene.shapes.mesh import Mesh
@@ -60,7 +61,7 @@ def model_scene(path: Path, folder: AssetFolder, source: str, variant: str | Non
     if poses := file.triangles.poses:
         _animate(tables, poses)
     has_lights = False
-    if path.suffix.lower() in GLTF:
+    if path.suffix.lower() in AS_GLTF:
         has_lights = _add_stage(tables, asset, reader, file.triangles, source)
     elif not file.triangles.parts:
         tables["materials"]["clay"] = Lambertian(color=CLAY)
@@ -110,13 +111,19 @@ def _add_camera(tables: Table, name: str, camera: FileCamera) -> None:
 def _add_stage(
     tables: Table, asset: Asset, reader: AssetReader, mesh: TriangleMesh, source: str
 ) -> bool:
-    """Add cameras and lights of a glTF file; return whether it has lights."""
+    """Add cameras and lights of a glTF or USD file; return whether it has lights."""
     try:
         document = Beside(asset, reader, source).document()
-        lights = lights_of(document, _ball(mesh)[1])
+        lights = (
+            document.lights(asset.path)
+            if isinstance(document, UsdDocument)
+            else lights_of(document, _ball(mesh)[1])
+        )
         camera = camera_of(document)
         if camera:
             _add_camera(tables, *camera)
+        if camera and isinstance(document, UsdDocument):
+            tables["camera"] |= document.lens(camera[1].chain[-1][0])
     except ValueError as error:
         raise SceneError(f"{source}: {of_content(error)}. Export the file again.") from None
     thing, suns = tables["objects"][0], lights["suns"]
@@ -125,7 +132,9 @@ def _add_stage(
     tables["objects"] += lights["objects"]
     if suns:
         tables["sun"] = suns[0]
-    return bool(lights["objects"] or suns)
+    if "background" in lights:
+        tables["background"] = lights["background"]
+    return bool(lights["objects"] or suns or "background" in lights)
 
 
 def _ball(mesh: TriangleMesh) -> tuple[Any, float]:

@@ -122,9 +122,9 @@ class FileBrowser:
 PROGRAMS = ("zenity", "kdialog", "matedialog", "qarma")  # programs that draw dialogs on Linux
 SCENES = [
     "Scenes, models, pictures and images of the sky",
-    "*.toml *.glb *.gltf *.obj *.ply *.stl *.png *.exr *.hdr",
+    "*.toml *.glb *.gltf *.obj *.ply *.stl *.usd *.usda *.usdc *.usdz *.png *.exr *.hdr",
 ]
-MODELS = ["Models", "*.glb *.gltf *.obj *.ply *.stl"]
+MODELS = ["Models", "*.glb *.gltf *.obj *.ply *.stl *.usd *.usda *.usdc *.usdz"]
 SCENE = ["Scene", "*.toml"]
 PICTURE = ["Picture", "*.png *.exr *.npy"]
 

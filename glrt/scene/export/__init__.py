@@ -5,7 +5,6 @@ Modules, each importing only what stands above it:
 - left_out: what a file cannot hold, in words
 - image_codes: texels as codes of 8 bits
 - triangles: shapes as triangles
-- gltf_file: JSON and buffer of a glTF file that is written
 - gltf_textures: textures of a glTF file that is written
 - gltf_materials: materials of a glTF file that is written
 - gltf: scenes as glTF files

@@ -8,13 +8,13 @@ from numpy.typing import NDArray
 
 from glrt.core.text import quoted
 from glrt.core.version import VERSION
-from glrt.scene.export.gltf_file import GltfFile, Table
 from glrt.scene.export.gltf_materials import MaterialWriter
 from glrt.scene.export.left_out import LeftOut, Report
 from glrt.scene.export.triangles import corners_around, triangles_of
 from glrt.scene.lit_scene import SUN_GROUP
 from glrt.scene.materials.nothing import Nothing
 from glrt.scene.model_files.gltf.lights import LUMENS
+from glrt.scene.model_files.gltf_file import GltfFile, Table
 from glrt.scene.scene import Scene
 from glrt.scene.shapes.cylinder import Cylinder
 from glrt.scene.shapes.disk import Disk

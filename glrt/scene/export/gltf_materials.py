@@ -6,7 +6,6 @@ from typing import Any
 import numpy as np
 
 from glrt.core.text import quoted
-from glrt.scene.export.gltf_file import GltfFile, Table
 from glrt.scene.export.gltf_textures import TextureWriter, channel_of, placing
 from glrt.scene.export.left_out import Report
 from glrt.scene.lit_scene import Finish
@@ -16,6 +15,7 @@ from glrt.scene.materials.lambertian import Lambertian
 from glrt.scene.materials.light import Light
 from glrt.scene.materials.metal import Metal
 from glrt.scene.materials.principled import Principled
+from glrt.scene.model_files.gltf_file import GltfFile, Table
 from glrt.scene.scene import Scene
 
 _LEAST_IOR = 1.0

@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from glrt.scene.export.gltf_file import GltfFile, Table
 from glrt.scene.export.image_codes import MOST, codes_of, png_of
 from glrt.scene.materials.textures import Texture
+from glrt.scene.model_files.gltf_file import GltfFile, Table
 
 Texels = NDArray[np.float16]  # (H, W, 4), linear
 

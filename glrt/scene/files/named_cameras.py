@@ -1,4 +1,4 @@
-"""Cameras that a scene names: the path of a glTF file, and its cameras once it is read."""
+"""Cameras that a scene names: the path of a glTF or USD file, and its cameras once it is read."""
 
 from pathlib import Path
 from typing import Annotated, NamedTuple, Protocol

@@ -68,7 +68,7 @@ class NamedFile(Frozen):
         return hash((self.file, self.sha256))
 
 
-_INSIDE = re.compile(r"(.+\.(?:glb|gltf))#([0-9]{1,6})", re.IGNORECASE)
+_INSIDE = re.compile(r"(.+\.(?:glb|gltf|usd[acz]?))#([0-9]{1,6})", re.IGNORECASE)
 
 
 def container_of(path: str) -> tuple[str, int | None]:

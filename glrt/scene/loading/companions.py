@@ -1,7 +1,12 @@
-"""Files that a file names by their paths from it, and glTF files, each parsed once."""
+"""Files that a file names by their paths from it; glTF and USD files, each parsed once."""
 
+from glrt.core.errors import SceneError
+from glrt.core.text import quoted
 from glrt.scene.files.assets import Asset, AssetReader, folder_of
+from glrt.scene.files.path_text import name_of
 from glrt.scene.model_files.gltf.document import Document
+from glrt.scene.model_files.usd.document import UsdDocument
+from glrt.scene.model_files.usd.process import ConversionError, is_usd
 
 
 class Beside:
@@ -25,11 +30,24 @@ class Beside:
         return dict(self._hashes)
 
     def document(self) -> Document:
-        """Return the asset as a glTF file, parsed once for a reader; ValueError for mistakes."""
+        """Return the asset as a glTF file, parsed once for a reader; ValueError for mistakes.
+
+        A USD file is converted; `SceneError` if it cannot be.
+        """
         made = self._reader.made
         if self._asset.path not in made:
-            made[self._asset.path] = Document(self._asset.content, self), self
+            made[self._asset.path] = self._parsed(), self
         document, first = made[self._asset.path]
         first._where, self._hashes = self._where, first._hashes
         found: Document = document
         return found
+
+    def _parsed(self) -> Document:
+        path, folder = self._asset.path, self._reader.folder
+        if not is_usd(path):
+            return Document(self._asset.content, self)
+        try:
+            file = folder.base / name_of(path)
+            return UsdDocument(file, folder.base, folder.allow_outside, self)
+        except ConversionError as error:
+            raise SceneError(f"{self._where}: {quoted(path)} {error}.") from None

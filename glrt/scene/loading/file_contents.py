@@ -1,5 +1,6 @@
 """Read the contents of files that a scene names."""
 
+from collections.abc import Mapping
 from pathlib import PurePosixPath
 
 import numpy as np
@@ -17,7 +18,7 @@ from glrt.scene.loading.companions import Beside
 from glrt.scene.model_files.gltf.cameras import FileCameras
 from glrt.scene.model_files.gltf.document import LacksExtensionError
 from glrt.scene.model_files.gltf.images import image_content
-from glrt.scene.model_files.mesh_formats import GLTF, decode_mesh
+from glrt.scene.model_files.mesh_formats import AS_GLTF, decode_mesh
 from glrt.scene.values import LARGEST
 
 NamedContent = ImageFile | TextureImage | MeshFile | CameraFile | GridFile
@@ -39,16 +40,17 @@ def with_content(named: NamedContent, reader: AssetReader, where: str) -> NamedC
             raise SceneError(f"{where}: {named.file}: {of_content(error)}.") from None
     if isinstance(named, TextureImage):
         return _texture(named, asset, reader, where)
-    pixels = _colors(decode_image(asset.content, f"{where}: {named.file}"))
+    content, hashes = _image(named, asset, reader, where)
+    pixels = _colors(decode_image(content, f"{where}: {named.file}"))
     check_brightness(pixels, LARGEST, f"{where}: {named.file}")
-    return named.read_as(asset.sha256, pixels, asset.origin)
+    return named.read_as(asset.sha256, pixels, asset.origin).with_companions(hashes)
 
 
 def _cameras(named: CameraFile, reader: AssetReader, where: str) -> CameraFile:
-    if PurePosixPath(named.file).suffix.lower() not in GLTF:
+    if PurePosixPath(named.file).suffix.lower() not in AS_GLTF:
         raise SceneError(
-            f"{where}: {quoted(named.file)} is no glTF file, which ends in .glb or .gltf, and glrt "
-            "reads cameras of those alone. Export the camera as glTF."
+            f"{where}: {quoted(named.file)} is no glTF or USD file, as .glb, .gltf, .usd, .usda, "
+            ".usdc and .usdz are, and glrt reads cameras of those alone. Export the camera as glTF."
         )
     asset = reader.read(named.path, where)
     beside = Beside(asset, reader, where)
@@ -65,6 +67,15 @@ def _cameras(named: CameraFile, reader: AssetReader, where: str) -> CameraFile:
 
 
 def _texture(named: TextureImage, asset: Asset, reader: AssetReader, where: str) -> TextureImage:
+    content, hashes = _image(named, asset, reader, where)
+    texels = decode_texels(content, f"{where}: {named.file}", color=named.is_color)
+    return named.read_as(asset.sha256, texels, asset.origin).with_companions(hashes)
+
+
+def _image(
+    named: TextureImage | ImageFile, asset: Asset, reader: AssetReader, where: str
+) -> tuple[bytes, Mapping[str, str]]:
+    """Return the content of an image, perhaps inside of a file, and SHA-256 of others, by path."""
     number, beside = container_of(named.file)[1], Beside(asset, reader, where)
     content = asset.content
     if number is not None:
@@ -74,10 +85,7 @@ def _texture(named: TextureImage, asset: Asset, reader: AssetReader, where: str)
             raise SceneError(
                 f"{where}: {named.file}: {of_content(error)}. Export the file again."
             ) from None
-    place = f"{where}: {named.file}"
-    texels = decode_texels(content, place, color=named.is_color)
-    found = named.read_as(asset.sha256, texels, asset.origin)
-    return found.with_companions(beside.hashes)
+    return content, beside.hashes
 
 
 def _colors(pixels: Pixels) -> Pixels:

@@ -1,4 +1,4 @@
-"""Read the materials of OBJ and glTF files, with their images.
+"""Read the materials of OBJ, glTF and USD files, with their images.
 
 Properties that scenes do not have are left out, and the file of the mesh lists them.
 """
@@ -24,6 +24,7 @@ from glrt.scene.model_files.gltf.materials import (
 )
 from glrt.scene.model_files.mtl import Entry, decode_mtl, material_of
 from glrt.scene.model_files.obj import libraries
+from glrt.scene.model_files.usd.document import UsdDocument
 from glrt.scene.schema.validation import validated
 from glrt.scene.shapes.mesh import Mesh
 
@@ -99,7 +100,11 @@ def of_gltf(shape: Mesh, reader: AssetReader, where: str) -> Found:
     own, unread = dict[str, Material](), list[str]()
     try:
         document = Beside(asset, reader, where).document()
-        looks = looks_of(document, asset.path)
+        if isinstance(document, UsdDocument):
+            looks = document.looks(asset.path)
+            unread += document.left_out
+        else:
+            looks = looks_of(document, asset.path)
         for name, part in shape.triangles_of_file.parts.items():
             look = looks[name]
             if look.table.get("transmission") and not look.table["thin"] and part.opening:

@@ -11,7 +11,7 @@ from glrt.scene.files.named_meshes import MeshFile
 from glrt.scene.loading.file_materials import REMEDY, Found, of_gltf, of_mtl
 from glrt.scene.materials.kinds import Material
 from glrt.scene.meshes.triangle_meshes import NO_MATERIAL
-from glrt.scene.model_files.mesh_formats import GLTF
+from glrt.scene.model_files.mesh_formats import AS_GLTF
 from glrt.scene.schema.fields import MAX_OBJECTS, SceneFields
 from glrt.scene.schema.validation import sentence, validated
 from glrt.scene.shapes.mesh import Mesh
@@ -99,7 +99,7 @@ class _Division:
 
 
 def _is_gltf(shape: Mesh) -> bool:
-    return PurePosixPath(shape.file.file).suffix.lower() in GLTF
+    return PurePosixPath(shape.file.file).suffix.lower() in AS_GLTF
 
 
 def _names(shape: Mesh, where: str, may_lack: bool) -> list[str]:
@@ -109,9 +109,10 @@ def _names(shape: Mesh, where: str, may_lack: bool) -> list[str]:
         mesh = shape.triangles_of_file
     except ValueError as error:
         raise SceneError(sentence(f"{where}: {file}: {error}")) from None
-    if PurePosixPath(file).suffix.lower() not in (".obj", *GLTF):
+    if PurePosixPath(file).suffix.lower() not in (".obj", *AS_GLTF):
         raise SceneError(
-            f"{where}: {file} has no materials of its own, as OBJ and glTF files have: {REMEDY}."
+            f"{where}: {file} has no materials of its own, as OBJ, glTF and USD files have: "
+            f"{REMEDY}."
         )
     names = list(mesh.parts)
     if not names:

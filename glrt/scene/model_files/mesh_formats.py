@@ -1,4 +1,4 @@
-"""Read files of triangle meshes as arrays: PLY, OBJ, STL and glTF."""
+"""Read files of triangle meshes as arrays: PLY, OBJ, STL, glTF and USD."""
 
 import warnings
 from collections.abc import Callable
@@ -16,9 +16,11 @@ from glrt.scene.model_files.gltf.primitives import mesh_of
 from glrt.scene.model_files.obj import read_obj
 from glrt.scene.model_files.ply import read_ply
 from glrt.scene.model_files.stl import read_stl
+from glrt.scene.model_files.usd.process import SUFFIXES
 
-FORMATS = (".ply", ".obj", ".stl", ".glb", ".gltf")
 GLTF = (".glb", ".gltf")
+AS_GLTF = (*GLTF, *SUFFIXES)  # have materials, cameras and lights; USD files are converted to glTF
+FORMATS = (".ply", ".obj", ".stl", *AS_GLTF)
 _LONGEST = 200  # letters of a problem in a message
 Fetch = Callable[[str], bytes]  # the content of a file by its path from this one
 
@@ -41,12 +43,12 @@ def decode_mesh(
     if suffix not in FORMATS:
         raise SceneError(
             f"{where}: {quoted(path)} is no file of a mesh that glrt reads, which end in .glb, "
-            ".gltf, .obj, .ply or .stl. Convert it to one of them."
+            ".gltf, .obj, .ply, .stl, .usd, .usda, .usdc or .usdz. Convert it to one of them."
         )
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of arithmetic with NaN, which is found below
-            if suffix in GLTF:
+            if suffix in AS_GLTF:
                 return _of_gltf(document() if document else Document(content, fetch or _alone))
             return of_file(*_READERS[suffix](content))
     except SceneError:

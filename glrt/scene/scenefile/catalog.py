@@ -8,7 +8,7 @@ from glrt.core.resources import folder
 from glrt.core.text import unknown
 
 PICTURES = (".exr", ".png")
-MODELS = (".glb", ".gltf", ".obj", ".ply", ".stl")
+MODELS = (".glb", ".gltf", ".obj", ".ply", ".stl", ".usd", ".usda", ".usdc", ".usdz")
 
 
 def scene_names() -> list[str]:

@@ -34,12 +34,14 @@ class Mesh(Sided):
     """
 
     shape: Literal["mesh"] = Field("mesh", description="the kind of shape")
-    file: NamedMesh = Field(description="path of a model, .glb, .gltf, .obj, .ply or .stl")
+    file: NamedMesh = Field(
+        description="path of a model, .glb, .gltf, .obj, .ply, .stl, .usd, .usda, .usdc or .usdz"
+    )
     material: str = Field(
         "",
         pattern=r"^[^\x00-\x1f\x7f]*$",
-        description="name of one of the materials; default: those of the file, which OBJ and glTF "
-        "files have",
+        description="name of one of the materials; default: those of the file, which OBJ, glTF and "
+        "USD files have",
     )
     part: Name | None = Field(
         None,

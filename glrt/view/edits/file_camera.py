@@ -14,7 +14,7 @@ from glrt.scene.files.path_text import text_of
 from glrt.scene.loading.file_camera import TIME
 from glrt.scene.loading.file_contents import with_content
 from glrt.scene.loading.scene_files import named_files
-from glrt.scene.model_files.mesh_formats import GLTF
+from glrt.scene.model_files.mesh_formats import AS_GLTF
 from glrt.scene.scene import Scene
 from glrt.view.controls import made, replaced
 
@@ -48,7 +48,7 @@ def to_be_saved(scene: Scene, opened: Camera) -> Scene:
 
 
 def cameras_of(scene: Scene) -> dict[str, Camera]:
-    """Return the cameras of the glTF files that a scene names, by the name of their node.
+    """Return the cameras of the glTF and USD files that a scene names, by the name of their node.
 
     Where there are several files, their names stand before. Cameras stand as in the pose without
     animation. A file or a camera that cannot be read is left out.
@@ -64,7 +64,7 @@ def cameras_of(scene: Scene) -> dict[str, Camera]:
 def _gltf_files(scene: Scene) -> Iterator[tuple[str, tuple[str, str | None]]]:
     """Yield paths of glTF files, with the place where each was read, and its SHA-256."""
     for _, named in named_files(scene):
-        if named.origin and named.path.lower().endswith(GLTF):
+        if named.origin and named.path.lower().endswith(AS_GLTF):
             yield named.path, (str(named.origin), named.sha256)
 
 

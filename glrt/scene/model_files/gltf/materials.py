@@ -63,7 +63,12 @@ def looks_of(document: Document, path: str) -> dict[str, Look]:
         name: _look(document, textures, index)
         for index, name in enumerate(material_names(document))
     }
-    return {**found, NO_MATERIAL: Look(dict(_GREY))}
+    return {**found, NO_MATERIAL: grey()}
+
+
+def grey() -> Look:
+    """Return the material of triangles without any."""
+    return Look(dict(_GREY))
 
 
 def _look(document: Document, textures: TextureTables, index: int) -> Look:

@@ -1,0 +1,100 @@
+"""A USD file as the content of a .glb file: `python -m` this, in a process of its own."""
+
+import json
+import os
+import sys
+from pathlib import Path
+
+import numpy as np
+from pxr import Usd, UsdGeom
+
+from glrt.scene.model_files.gltf_file import GltfFile
+from glrt.scene.model_files.usd.lamps import Lamps
+from glrt.scene.model_files.usd.layers import Folder, opened_stage
+from glrt.scene.model_files.usd.looks import Looks
+from glrt.scene.model_files.usd.placing import Placing
+from glrt.scene.model_files.usd.primitives import Primitives
+from glrt.scene.model_files.usd.reports import LeftOut, UnshownError
+from glrt.scene.model_files.usd.texture_tables import Textures
+
+_MEMORY = 16 << 30  # bytes of the process
+KEY = "glrt_usd"  # in the extras of the file: what glTF cannot hold
+_Y_FROM_Z = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
+
+
+def converted(folder: Folder) -> bytes:
+    """Return the content of a .glb file, whose extras hold what glTF cannot.
+
+    Raises `UnshownError`.
+    """
+    left = folder.left
+    stage = opened_stage(folder)
+    time = _moment(stage, left)
+    glb = GltfFile("glrt")
+    textures = Textures(glb, folder, time)
+    looks, lamps = Looks(textures, left), Lamps(left, textures, time)
+    placing = Placing(glb, Primitives(glb, looks, left, time), lamps, left, time)
+    unit = UsdGeom.GetStageMetersPerUnit(stage)
+    if not 1e-12 < unit < 1e12:
+        left.add("metersPerUnit")
+        unit = 1.0
+    frame = np.diag([unit, unit, unit, 1.0])
+    if UsdGeom.GetStageUpAxis(stage) == "Z":
+        frame = _Y_FROM_Z @ frame
+    placing.place(stage, frame, unit)
+    for number, node in enumerate(placing.nodes):
+        assert glb.add("nodes", node) == number
+    glb.add("scenes", {"nodes": list(range(len(placing.nodes)))})
+    for look in looks.found:
+        glb.add("materials", {"name": look.name})
+    extras = {
+        "looks": [{"table": it.table, "is_two_sided": it.is_two_sided} for it in looks.found],
+        "lights": lamps.tables,
+        "lenses": placing.lenses,
+        "layers": folder.layers,
+        "left_out": left.told,
+    }
+    glb.put("extras", {KEY: extras})
+    return glb.binary()
+
+
+def _moment(stage: Usd.Stage, left: LeftOut) -> Usd.TimeCode:
+    """Return the moment at which a file is shown: its first; with clips, that of no samples."""
+    moves, has_clips = False, False
+    for prim in stage.Traverse():
+        has_clips |= prim.HasAuthoredMetadata("clips")
+        moves |= any(it.GetNumTimeSamples() > 1 for it in prim.GetAuthoredAttributes())
+    if has_clips:
+        left.add("value clips")
+        return Usd.TimeCode.Default()
+    if moves:
+        left.add("time samples after the first moment")
+    if stage.HasAuthoredTimeCodeRange():
+        return Usd.TimeCode(stage.GetStartTimeCode())
+    return Usd.TimeCode.EarliestTime()
+
+
+def main() -> int:
+    """Convert a file, FILE BASE ALLOW_OUTSIDE OUTPUT; write the mistake as JSON if it has one."""
+    _limit()
+    file, base, outside, output = sys.argv[1:]
+    folder = Folder(Path(file), Path(base), outside == "True", LeftOut())
+    try:
+        content = converted(folder)
+    except UnshownError as problem:
+        content = json.dumps({"problem": str(problem)}).encode()
+    Path(output).write_bytes(content)
+    return 0
+
+
+def _limit() -> None:
+    """Let the process have no more memory than any file needs, and leave nothing of a crash."""
+    if os.name == "posix":
+        import resource
+
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

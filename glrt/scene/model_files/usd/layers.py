@@ -1,0 +1,95 @@
+"""The layers of a USD file: those in its folder, and no others unless the user allows it."""
+
+import os
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from pxr import Ar, Sdf, Usd
+
+from glrt.scene.model_files.usd.reports import LeftOut, UnshownError
+
+_MOST_LAYERS = 10_000
+
+
+@dataclass
+class Folder:
+    """Where the files of a USD file lie: `base` holds all that may be read."""
+
+    root: Path  # the USD file
+    base: Path
+    allow_outside: bool
+    left: LeftOut
+    layers: list[str] = field(default_factory=list)  # other files that were read, from the root's
+
+    def may_read(self, path: str) -> bool:
+        """Return whether a file lies in the folder, without links that lead out."""
+        if self.allow_outside:
+            return True
+        return Path(os.path.realpath(path)).is_relative_to(os.path.realpath(self.base))
+
+    def relative(self, path: str) -> str:
+        """Return the path of a file from the folder of the USD file, with '/'."""
+        return Path(os.path.relpath(path, self.root.parent)).as_posix()
+
+
+def opened_stage(folder: Folder) -> Usd.Stage:
+    """Return the composed file; layers that may not or cannot be read are left out by name.
+
+    Their names are removed from the layers in memory, so that the library never opens them.
+    """
+    root = _layer(str(folder.root))
+    if root is None:
+        raise UnshownError("it is damaged, or no USD file")
+    waiting, kept = [root], {root.identifier: root}
+    while waiting:
+        layer = waiting.pop()
+        for named in layer.GetCompositionAssetDependencies():
+            found = _dependency(layer, named, folder) if named else None
+            if found is None:
+                layer.UpdateCompositionAssetDependency(named, "")
+            elif found.identifier not in kept:
+                kept[found.identifier] = found
+                waiting.append(found)
+        if len(kept) > _MOST_LAYERS:
+            raise UnshownError(f"it has more than {_MOST_LAYERS:,} layers")
+    folder.layers += _files(kept.values(), folder)
+    stage = Usd.Stage.Open(root)
+    if not stage:
+        raise UnshownError("its layers cannot be put together")
+    return stage
+
+
+def file_of(path: str) -> str:
+    """Return the file that a path names: the package, for a path into one."""
+    return Ar.SplitPackageRelativePathOuter(path)[0] if Ar.IsPackageRelativePath(path) else path
+
+
+def _dependency(layer: Sdf.Layer, named: str, folder: Folder) -> Sdf.Layer | None:
+    if Sdf.VariableExpression.IsExpression(named):
+        folder.left.name("layers by expressions", named)
+        return None
+    path = layer.ComputeAbsolutePath(named)
+    if not os.path.isabs(path):  # nothing is there
+        folder.left.name("layers that cannot be read", named)
+        return None
+    if not folder.may_read(file_of(path)):
+        folder.left.name("layers outside of the folder (--allow-outside)", named)
+        return None
+    found = _layer(path)
+    if found is None:
+        folder.left.name("layers that cannot be read", named)
+    return found
+
+
+def _layer(path: str) -> Sdf.Layer | None:
+    try:
+        return Sdf.Layer.FindOrOpen(path)
+    except Exception:  # of the library, for content that it cannot parse
+        return None
+
+
+def _files(layers: object, folder: Folder) -> list[str]:
+    assert hasattr(layers, "__iter__")
+    files = {file_of(layer.realPath): None for layer in layers}
+    own = os.path.realpath(folder.root)
+    return [folder.relative(file) for file in files if os.path.realpath(file) != own]
