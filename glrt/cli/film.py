@@ -2,7 +2,7 @@
 
 import argparse
 from collections.abc import Iterator
-from contextlib import closing, contextmanager
+from contextlib import contextmanager
 from dataclasses import replace
 from typing import Any
 
@@ -206,8 +206,7 @@ def _frames_of(
 
     with crew_of(arguments, interruption, "frame") as crew:
         rest = film.series, film.numbers, film.output, film.options
-        with closing(render_frames_on(crew, *rest)) as frames:
-            yield film.taken(frames)
+        yield film.taken(render_frames_on(crew, *rest))
 
 
 def _film(arguments: argparse.Namespace) -> Film:

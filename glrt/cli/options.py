@@ -94,8 +94,8 @@ def add_cluster(parser: argparse.ArgumentParser) -> None:
         "--cluster",
         type=_cluster,
         metavar="WHERE",
-        help="render on a cluster of Dask: local:N for N processes of this machine, the "
-        "tcp://HOST:PORT of a scheduler, or its scheduler file; needs `pip install 'glrt[cluster]'`",
+        help="render on a cluster of Dask: local:N for N processes of this machine, "
+        "tcp://HOST:PORT of a scheduler, or its scheduler file",
     )
 
 

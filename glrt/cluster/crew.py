@@ -155,8 +155,11 @@ class _Tasks:
             *(entry.do, numbers),
             key=[(group, number) for number in numbers],
             workers=sorted(workers) or None,
-            **{"parcel": self._held, "digest": self._digest, "version": VERSION},
-            **{"renderer": self._crew.renderer, "context": self._crew.context},
+            parcel=self._held,
+            digest=self._digest,
+            version=VERSION,
+            renderer=self._crew.renderer,
+            context=self._crew.context,
         )
         for number, future in zip(numbers, futures, strict=True):
             self.futures[future.key], self.numbers[future.key] = future, number

@@ -1,9 +1,8 @@
 """Render the frames of a film that are missing by the workers of a cluster."""
 
 import tempfile
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 
 from glrt.cluster.crew import Crew
@@ -76,5 +75,12 @@ def render_frames_on(
             continue
         frame, content = value
         if frame.record:
-            write_whole(file, partial(Path.write_bytes, data=content))
+            write_whole(file, _writer(content))
         yield frame._replace(file=file)
+
+
+def _writer(content: bytes) -> Callable[[Path], None]:
+    def write(path: Path) -> None:
+        path.write_bytes(content)
+
+    return write

@@ -142,7 +142,7 @@ class FrameRenderer:
 
 
 def kept_frame(series: Series, number: int, output: Output, options: RenderOptions) -> Frame | None:
-    """Return a frame that stands, or one that failed since its values are out of range; else None."""
+    """Return a frame that stands, or whose values are out of range; None if it is missing."""
     file = output.frame(number)
     try:
         still = series.still(number)
