@@ -21,6 +21,7 @@ Modules and packages, each importing only what stands above it:
 - comparison: whether two pictures differ by more than their noise
 - rendering: render a scene with settings: samples on a film
 - series: series of pictures: animations, turntables and sweeps
+- cluster: frames and pictures by the workers of a cluster
 - doctor: which OpenGL routes work on a machine
 - analysis: experiments with the renderer: chart, choice of a method
 - lab: scenes on which methods fail, for `glrt stress`

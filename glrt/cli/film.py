@@ -1,6 +1,8 @@
 """`glrt film`: render a series of pictures: an animation, a turntable, or a sweep of values."""
 
 import argparse
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from typing import Any
 
@@ -8,6 +10,7 @@ from glrt.cli.caustics import with_caustics
 from glrt.cli.film_jobs import EXPORTS, job
 from glrt.cli.options import (
     SCENE,
+    add_cluster,
     add_context,
     add_files,
     add_pipeline,
@@ -17,8 +20,10 @@ from glrt.cli.options import (
     error_limit,
     is_automatic,
 )
+from glrt.cli.reports.cluster_report import crew_of
 from glrt.cli.reports.film_report import Reporter, named, warn_of
 from glrt.cli.request import Order, order
+from glrt.cluster.clusters import check_installed
 from glrt.core.errors import RenderError, UsageError
 from glrt.core.text import counted
 from glrt.image.sources import STANDARD_INPUT, check_not_scene, shown
@@ -28,7 +33,7 @@ from glrt.rendering.stopping import Interruption, Limits
 from glrt.series.containers import check_container
 from glrt.series.film import Film
 from glrt.series.outputs import parse_output
-from glrt.series.rendering import RenderOptions
+from glrt.series.rendering import Frame, RenderOptions
 from glrt.series.series import Series, chosen
 from glrt.series.sheet import check_sheet
 from glrt.series.sweeps import parse_sweep
@@ -68,6 +73,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="E",
         help="stop each frame at this estimated relative RMS error (2%% or 0.02)",
     )
+    add_cluster(parser)
     add_context(parser)
     add_pipeline(parser)
     add_files(parser)
@@ -178,8 +184,8 @@ def _rendered(arguments: argparse.Namespace, film: Film) -> int:
     """Render the frames and write the film; returns the exit code."""
     reporter = Reporter(arguments, film)
     with Interruption().watched() as interruption:
-        with reporter.watching() as watch:
-            for frame in film.render(interruption, watch):
+        with _frames_of(arguments, film, reporter, interruption) as frames:
+            for frame in frames:
                 reporter.report(frame)
         if interruption.signal is not None:
             done = f"{len(film.complete)} of {counted(len(film.numbers), 'frame')}"
@@ -194,6 +200,22 @@ def _rendered(arguments: argparse.Namespace, film: Film) -> int:
         text = f"--error {arguments.error:g} was not reached by {named(film.missed)}"
         return fail(f"{text}. The film is saved; give more --samples or --time.", 1)
     return 0
+
+
+@contextmanager
+def _frames_of(
+    arguments: argparse.Namespace, film: Film, reporter: Reporter, interruption: Interruption
+) -> Iterator[Iterator[Frame]]:
+    """Yield the frames of a film, rendered here or by the workers of `--cluster`."""
+    if arguments.cluster is None:
+        with reporter.watching() as watch:
+            yield film.render(interruption, watch)
+        return
+    from glrt.cluster.films import render_frames_on
+
+    with crew_of(arguments, interruption, "frame") as crew:
+        rest = film.series, film.numbers, film.output, film.options
+        yield film.taken(render_frames_on(crew, *rest))
 
 
 def _film(arguments: argparse.Namespace) -> Film:
@@ -249,6 +271,10 @@ def _check(arguments: argparse.Namespace) -> None:
         raise UsageError("--turntable and --sweep do not go together: render one of them.")
     if len(arguments.sweeps) > MOST_SWEEPS:
         raise UsageError("--sweep can be given twice: rows and columns of a sheet.")
+    if arguments.cluster:
+        if arguments.export:
+            raise UsageError("--export and --cluster do not go together: give one of them.")
+        check_installed()
     if arguments.export and arguments.scene == STANDARD_INPUT:
         raise UsageError("--export needs a scene file: tasks have no standard input.")
     if arguments.export and parse_output(arguments.output).kind != "frames":

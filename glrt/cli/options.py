@@ -6,6 +6,7 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn, get_args
 
+from glrt.cluster.addresses import Address, parse_address
 from glrt.core.errors import UsageError
 from glrt.gpu.context import ROUTES, Pipeline
 from glrt.image.sources import FileRules
@@ -85,6 +86,24 @@ def add_progress(parser: argparse.ArgumentParser) -> None:
         help="print the progress on standard output, two lines of JSON a second: share done, "
         "seconds to go, samples",
     )
+
+
+def add_cluster(parser: argparse.ArgumentParser) -> None:
+    """Add `--cluster`."""
+    parser.add_argument(
+        "--cluster",
+        type=_cluster,
+        metavar="WHERE",
+        help="render on a cluster of Dask: local:N for N processes of this machine, "
+        "tcp://HOST:PORT of a scheduler, or its scheduler file",
+    )
+
+
+def _cluster(text: str) -> Address:
+    try:
+        return parse_address(text)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
 
 
 def add_pipeline(parser: argparse.ArgumentParser) -> None:

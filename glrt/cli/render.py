@@ -11,6 +11,7 @@ from glrt.cli.autosave import Autosave
 from glrt.cli.caustics import with_caustics
 from glrt.cli.options import (
     SCENE,
+    add_cluster,
     add_context,
     add_files,
     add_outputs,
@@ -22,9 +23,11 @@ from glrt.cli.options import (
     is_automatic,
     settings_given,
 )
-from glrt.cli.reports.render_report import Done, report
+from glrt.cli.reports.cluster_report import crew_of
+from glrt.cli.reports.render_report import Done, Driver, Finished, report
 from glrt.cli.reports.warnings import warn
-from glrt.cli.request import Order, frame_of, opened, order
+from glrt.cli.request import Order, frame_of, is_in_bands, opened, order
+from glrt.cluster.clusters import check_installed
 from glrt.core.errors import RenderError, UsageError
 from glrt.core.text import counted
 from glrt.image.image import Image, check_writable
@@ -79,6 +82,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="the frame of the scene's animation, from 0 (default: 0; of a model its pose without "
         "animation)",
     )
+    add_cluster(parser)
     add_context(parser)
     add_pipeline(parser)
     add_files(parser)
@@ -122,16 +126,20 @@ def _run(arguments: argparse.Namespace) -> int:
     is_kept = any(name.lower().endswith(".exr") for name in arguments.outputs)
     if getattr(arguments, "aov", ()) and not is_kept:
         raise UsageError("--aov needs an .exr output: other files hold the picture alone.")
+    if is_in_bands(arguments):
+        check_installed()
     if is_automatic(arguments):
         check({Way.AUTO} | ({Way.SHUTTER} if wanted.scene.is_blurred else set()))
         from glrt.analysis.method_choice.advice import choose
 
         chosen = choose(arguments, wanted.scene, wanted.settings, wanted.limits)
         wanted = replace(wanted, **chosen._asdict())
-    wanted = with_caustics(arguments, wanted)
+    if not is_in_bands(arguments):  # particles do not go with bands, so no pilot is needed
+        wanted = with_caustics(arguments, wanted)
     warn(wanted.scene, wanted.settings, settings_given(arguments), arguments.quiet)
+    make = _render_in_bands if is_in_bands(arguments) else _render
     with Interruption().watched() as interruption:
-        return _render(arguments, wanted, interruption, load)
+        return make(arguments, wanted, interruption, load)
 
 
 def _render(
@@ -164,6 +172,28 @@ def _render(
     if limits.error is not None and (estimate is None or estimate > limits.error):
         counts = image.samples, renderer.settings.least_known
         return fail(unreached(arguments.error, limits.error, estimate, *counts), 1)
+    return 0
+
+
+def _render_in_bands(
+    arguments: argparse.Namespace, wanted: Order, interruption: Interruption, load: float
+) -> int:
+    """Render by the workers of `--cluster`."""
+    from glrt.cluster.bands import PictureJob, render_bands
+
+    start, setup = time.perf_counter(), since_start()
+    how = arguments.context, arguments.pipeline, wanted.decisions
+    with crew_of(arguments, interruption, "band") as crew:
+        done = render_bands(crew, PictureJob(wanted.scene, wanted.settings, *how))
+    if done is None:
+        return fail(signals.NOTHING, _signal_code(interruption))
+    image, route = done
+    assert image.recipe
+    seconds = {"setup": setup, "load": load, "render": time.perf_counter() - start}
+    driver = Driver(image.recipe.renderer, route)
+    finished = Finished(wanted.scene, image.recipe.settings, image.recipe.pipeline, driver)
+    Autosave(arguments.outputs).keep(image)
+    report(arguments, Done(finished, image, 0, seconds))
     return 0
 
 

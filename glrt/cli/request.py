@@ -116,8 +116,14 @@ def ways_wanted(
         Way.AUTO: is_automatic(arguments),
         Way.TIME: arguments.time is not None,
         Way.ERROR: arguments.error is not None,
+        Way.CLUSTER: is_in_bands(arguments),
     }
     return {way for way, is_asked in found.items() if is_asked} | ways_of(settings)
+
+
+def is_in_bands(arguments: argparse.Namespace) -> bool:
+    """Whether workers of a cluster render bands of a picture: frames of a film stay whole."""
+    return getattr(arguments, "cluster", None) is not None and "outputs" in arguments
 
 
 def check_limit(name: str, value: float | None) -> None:

@@ -15,6 +15,7 @@ Modules, each importing only what stands above it:
 - plan: the plan of a render: features and light layers
 - explanation: why each feature is compiled in
 - particle_refusals: why particles cannot be followed in a scene
+- band_refusals: why pictures cannot be divided into bands
 - combinations: table of options that work together
 - omissions: light that a method leaves out
 - idle_settings: settings that are given and change nothing

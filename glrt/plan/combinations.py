@@ -10,6 +10,7 @@ from enum import StrEnum
 from itertools import combinations
 
 from glrt.core.errors import UsageError
+from glrt.plan.band_refusals import NOT_IN_BANDS
 from glrt.plan.facts import SceneFacts
 from glrt.plan.methods import METHODS, reuses_points, traits_of
 from glrt.plan.particle_refusals import refusal
@@ -44,6 +45,7 @@ class Way(StrEnum):
     TIME = "--time"
     ERROR = "--error"
     SHUTTER = "an open shutter"
+    CLUSTER = "--cluster of glrt render"
 
 
 MEANINGS: dict[Way, str] = {
@@ -71,6 +73,7 @@ MEANINGS: dict[Way, str] = {
     Way.TIME: "`--time`: end after some seconds",
     Way.ERROR: "`--error`: end at an error",
     Way.SHUTTER: "`shutter` of `[camera]`, in a scene that moves: motion blur",
+    Way.CLUSTER: "`--cluster` of `glrt render`: bands of the picture by workers",
 }
 
 # For each option: the options above it that it works with.
@@ -130,6 +133,10 @@ _WORKS: dict[Way, tuple[Way, ...]] = {
     Way.SHUTTER: (
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.FRAGMENT),
         *(Way.CLASSIC, Way.HYBRID, Way.MARCH, Way.PILOT, Way.TIME, Way.ERROR),
+    ),
+    Way.CLUSTER: (
+        *(Way.CROP, Way.AOV, Way.TERMS, Way.FRAGMENT, Way.INDEPENDENT, Way.NET, Way.CLASSIC),
+        *(Way.HYBRID, Way.MARCH, Way.PILOT, Way.SHUTTER),
     ),
 }
 
@@ -207,6 +214,10 @@ _REFUSED |= {
         Way.AUTO: "it measures a picture of one time",
         Way.ADAPTIVE: "pixels of other counts would see other times",
     }.items()
+}
+_REFUSED |= {
+    frozenset({Way.CLUSTER, Way[name]}): f"{why}: leave out one of them"
+    for name, why in NOT_IN_BANDS.items()
 }
 _UNTRIED = "nobody has tried the two together"
 

@@ -1,7 +1,8 @@
 """A film: the frames of a series, and the file that is made of them."""
 
 import json
-from collections.abc import Iterator
+from bisect import insort
+from collections.abc import Iterable, Iterator
 from contextlib import AbstractContextManager, nullcontext, suppress
 from dataclasses import dataclass, field
 
@@ -78,8 +79,12 @@ class Film:
     def render(self, interruption: Interruption, watch: Watch | None = None) -> Iterator[Frame]:
         """Render the frames that are missing; yields each, as `render_frames` does."""
         rest = self.options, interruption, watch
-        for frame in render_frames(self.series, self.numbers, self.output, *rest):
-            self.frames.append(frame)
+        return self.taken(render_frames(self.series, self.numbers, self.output, *rest))
+
+    def taken(self, frames: Iterable[Frame]) -> Iterator[Frame]:
+        """Yield frames that arrive in any order, and keep them in order."""
+        for frame in frames:
+            insort(self.frames, frame, key=lambda other: other.number)
             yield frame
 
     def write(self, keeps_frames: bool) -> None:

@@ -113,9 +113,9 @@ class FrameRenderer:
         """
         start, file, options = time.perf_counter(), output.frame(number), self._options
         try:
+            if stands := kept_frame(series, number, output, options):
+                return stands
             still = series.still(number)
-            if record := kept(file, still, options.of(number)):
-                return Frame(number, file, still.label, record)
             limits = options.limits(still)
             watched = (lambda renderer: watch(number, limits, renderer)) if watch else None
             image = self.render(still, limits, watched)
@@ -139,6 +139,17 @@ class FrameRenderer:
         if self._renderer:
             self._renderer.release()
         self._renderer = None
+
+
+def kept_frame(series: Series, number: int, output: Output, options: RenderOptions) -> Frame | None:
+    """Return a frame that stands, or whose values are out of range; None if it is missing."""
+    file = output.frame(number)
+    try:
+        still = series.still(number)
+    except (SceneError, RenderError) as error:
+        return Frame(number, file, failure=str(error))
+    record = kept(file, still, options.of(number))
+    return Frame(number, file, still.label, record) if record else None
 
 
 def _work(still: Still) -> int:

@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from functools import partial
 from typing import Any, NamedTuple, Protocol
 
+from glrt.core.text import counted
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.stopping import Limits
 from glrt.settings import MAX_SAMPLES
@@ -84,6 +85,36 @@ def film_lines(count: int) -> Iterator["FilmWatch"]:
         lines.put(share, left, frame=number, frames=count, done=done)
 
     yield watch
+
+
+@contextmanager
+def progress_of_all(unit: str, as_lines: bool) -> Iterator[Callable[[int, int, int], None]]:
+    """Yield a function of tasks done, tasks in all, and workers, which shows how far all are.
+
+    It prints lines of JSON, or updates a bar on stderr that names tasks by their `unit`.
+    """
+    start, lines = time.perf_counter(), _Lines()
+
+    def left(done: int, count: int) -> float | None:
+        return (time.perf_counter() - start) * (count - done) / done if done else None
+
+    def line(done: int, count: int, workers: int) -> None:
+        if lines.is_due():
+            own = {f"{unit}s": count, "done": done, "workers": workers}
+            lines.put(done / count, left(done, count), **own)
+
+    if as_lines:
+        yield line
+        return
+    with _bar() as show:
+
+        def bar(done: int, count: int, workers: int) -> None:
+            seconds = left(done, count)
+            place = f"{done} of {counted(count, unit)}, {counted(workers, 'worker')}"
+            rest = "how long is not known yet" if seconds is None else f"{seconds:.0f} s to go"
+            show(completed=done / count, done=place, rest=rest)
+
+        yield bar
 
 
 class _Lines:

@@ -8,16 +8,52 @@ from glrt.cli.reports.warnings import clipped, doubt, dropped, even, too_dark
 from glrt.core.text import counted
 from glrt.denoise.filters import least_samples
 from glrt.image.image import Image
+from glrt.plan.facts import SceneFacts
 from glrt.plan.omissions import left_out, omissions
+from glrt.plan.plan import Plan
 from glrt.process.command import file_names, peak_bytes, print_figures
+from glrt.rendering.particle_tracer import Losses
 from glrt.rendering.renderer import Renderer
 from glrt.scene.loading.scene_files import sources_of
+from glrt.scene.scene import Scene
+from glrt.settings import Settings
+
+
+class Driver(NamedTuple):
+    """An OpenGL driver of workers, and the route by which it was opened."""
+
+    renderer: str
+    route: str
+
+
+class Finished(NamedTuple):
+    """What a report needs of a renderer, for a picture that workers have rendered."""
+
+    scene: Scene
+    settings: Settings
+    pipeline: str
+    context: Driver
+    lost_particles: Losses = Losses(0, 0)
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height of the picture or of the crop, in pixels."""
+        return self.settings.size
+
+    @property
+    def plan(self) -> Plan:
+        """What the picture needs of a kernel."""
+        return Plan(SceneFacts(self.scene), self.settings, "none")
+
+    def nonfinite(self) -> int:
+        """Number of dropped samples, which the picture itself knows."""
+        return 0
 
 
 class Done(NamedTuple):
     """A finished render."""
 
-    renderer: Renderer
+    renderer: Renderer | Finished
     image: Image
     begun: int  # samples that each pixel had at the start
     seconds: dict[str, float]

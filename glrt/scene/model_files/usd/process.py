@@ -9,6 +9,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from glrt.core.errors import ContentError
+from glrt.core.install import install
 
 SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
 _MODULE = "glrt.scene.model_files.usd.conversion"
@@ -33,7 +34,7 @@ def glb_of(file: Path, base: Path, allow_outside: bool) -> bytes:
     if find_spec("pxr") is None or getattr(sys, "frozen", False):  # sys.executable is no Python
         raise ConversionError(
             "is a USD file, and usd-core, which reads it, is not installed. Install it by: "
-            "pip install 'glrt[usd]'"
+            f"{install('usd')}"
         )
     with tempfile.TemporaryDirectory(prefix="glrt-usd-") as place:
         output = Path(place) / "made.glb"

@@ -1,0 +1,133 @@
+"""A picture as bands of whole rows, rendered by the workers of a cluster, and joined.
+
+The bands follow from the picture alone. A pixel is seeded by its place in the frame, so the joined
+picture has the bits of a render in one piece, on the same driver.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, fields, replace
+from typing import Any
+
+import numpy as np
+
+from glrt.cluster.crew import Crew
+from glrt.core.errors import RenderError
+from glrt.gpu.context import Choice, Pipeline
+from glrt.image.aovs import AovImage
+from glrt.image.film_state import FilmState
+from glrt.image.image import Image
+from glrt.rendering.renderer import Renderer
+from glrt.scene.scene import Scene
+from glrt.settings import Settings
+
+Crop = tuple[int, int, int, int]
+
+MOST_BANDS = 64
+TILE = 8  # rows of a work group
+
+
+def bands_of(settings: Settings) -> list[Crop]:
+    """Return crops of whole rows that make the picture, or its crop, from above to below."""
+    left, top, width, height = settings.crop or (0, 0, settings.width, settings.height)
+    rows = TILE * -(-height // (TILE * MOST_BANDS))
+    return [(left, top + y, width, min(rows, height - y)) for y in range(0, height, rows)]
+
+
+@dataclass(frozen=True)
+class PictureJob:
+    """The bands of a picture, as a worker renders them."""
+
+    scene: Scene
+    settings: Settings
+    context: Choice = "auto"
+    pipeline: Pipeline = "auto"
+    decisions: Mapping[str, str] = field(default_factory=dict)  # as in recipes
+
+    def begin(self) -> "PictureWork":
+        """Return the work, without having rendered any band."""
+        return PictureWork(self)
+
+
+class PictureWork:
+    """Renders bands, with one renderer from band to band."""
+
+    def __init__(self, job: PictureJob) -> None:
+        """Open nothing yet."""
+        self._job = job
+        self._renderer: Renderer | None = None
+
+    def do(self, number: int) -> tuple[Image, str]:
+        """Return a band, and the route by which OpenGL was opened; raises `GlrtError`.
+
+        Only the first band has a recipe, which holds the scene.
+        """
+        job, crop = self._job, bands_of(self._job.settings)[number]
+        if self._renderer:
+            self._renderer.update(crop=crop)
+            self._renderer.restart()
+        else:
+            settings = job.settings.model_copy(update={"crop": crop})
+            self._renderer = Renderer(
+                *(job.scene, settings, job.context, "baked", job.pipeline),
+                decisions=job.decisions,
+                opens_shutter=True,
+            )
+        image = self._renderer.render().image()
+        return image if number == 0 else replace(image, recipe=None), self._renderer.context.route
+
+    def release(self) -> None:
+        """Release OpenGL."""
+        if self._renderer:
+            self._renderer.release()
+        self._renderer = None
+
+
+def render_bands(crew: Crew, job: PictureJob) -> tuple[Image, str] | None:
+    """Return the picture and the route by which OpenGL was opened; None after an interruption.
+
+    Raises the errors of a worker, and `RenderError` if the cluster ends.
+    """
+    count = len(bands_of(job.settings))
+    found = dict[int, Image]()
+    route = ""
+    for number, value in crew.answers(job, range(count)):
+        if isinstance(value, RenderError):
+            raise RenderError(f"Band {number} of {count} failed: {value}.")
+        found[number], route = value
+    if len(found) < count:
+        return None
+    return joined([found[number] for number in range(count)], job.settings), route
+
+
+def joined(bands: Sequence[Image], settings: Settings) -> Image:
+    """Return the picture of bands from above to below, with the settings of the whole."""
+    first = bands[0]
+    recipe = first.recipe and first.recipe.model_copy(
+        update={"settings": first.recipe.settings.model_copy(update={"crop": settings.crop})}
+    )
+    states = [band.film_state for band in bands if band.film_state]
+    return Image(
+        _stacked([band.radiance for band in bands]),
+        _stacked([band.stderr for band in bands]),
+        first.samples,
+        recipe,
+        _joined_states(states) if len(states) == len(bands) else None,
+        {name: _joined_aovs([band.aovs[name] for band in bands]) for name in first.aovs},
+    )
+
+
+def _joined_states(states: Sequence[FilmState]) -> FilmState:
+    """Return the state of all rows; those of nets have the scrambles before the rows."""
+    whole = FilmState(*(_stacked([state[k] for state in states]) for k in range(len(states[0]))))
+    first = states[0]
+    net = np.concatenate([s.net for s in states], axis=1) if len(first.net) else first.net
+    return whole._replace(net=net, counts=first.counts, shares=first.shares)
+
+
+def _joined_aovs(parts: Sequence[AovImage]) -> AovImage:
+    values = {f.name: [getattr(part, f.name) for part in parts] for f in fields(AovImage)}
+    return AovImage(**{n: None if v[0] is None else _stacked(v) for n, v in values.items()})
+
+
+def _stacked(arrays: Sequence[Any]) -> Any:
+    return np.concatenate(arrays, axis=0)
