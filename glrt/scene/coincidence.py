@@ -21,6 +21,7 @@ from glrt.scene.shapes.plane import Plane
 TOGETHER = 2.0**-17  # largest gap over the size of two surfaces: twice the kernel's rounding
 LEAST_OVERLAP = 1e-4  # least overlap over the smaller size: neighbours that only touch are apart
 MOST_TRIANGLES = 65_535  # emitting triangles; if there are more, meshes are not compared as lamps
+LEANING = 2.0**-8  # rise over the size of a surface, beyond which it lies in no other's plane
 PORTION = 1 << 16  # pairs that are compared at once
 
 Floats = NDArray[np.float64]
@@ -162,10 +163,26 @@ def _lie_together(first: Polygons, second: Polygons) -> NDArray[np.bool_]:
         for here, there, normal in ((first, second, flat[0]), (second, first, flat[1]))
     ]
     together: NDArray[np.bool_] = np.minimum(*gaps) <= TOGETHER * size
+    together &= ~_lean(first, second)
     together &= flat[0].any(axis=1) & flat[1].any(axis=1)
     rows = np.flatnonzero(together)
     together[rows] = _overlap(first.of(rows), second.of(rows), flat[0][rows])
     return together
+
+
+def _lean(first: Polygons, second: Polygons) -> NDArray[np.bool_]:
+    """Return whether the smaller polygon of a pair leans on the plane of the other one, (n,).
+
+    So does a part of a round lamp where it touches a floor: the two share a point there, and no
+    part of a plane. Corners are known to a float32.
+    """
+    sizes = [np.linalg.norm(np.ptp(it.corners, axis=1), axis=1) for it in (first, second)]
+    leans = [
+        np.ptp(_dots(small.corners, large.normals[:, None]), axis=1)
+        > LEANING * size + 2.0**-22 * np.abs(small.corners).max(axis=(1, 2))
+        for small, large, size in ((first, second, sizes[0]), (second, first, sizes[1]))
+    ]
+    return np.where(sizes[0] < sizes[1], *leans)
 
 
 def _overlap(first: Polygons, second: Polygons, normals: Floats) -> NDArray[np.bool_]:

@@ -5,7 +5,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from glrt.scene.coincidence import box_pairs, coincidence_of
+from glrt.scene.coincidence import _lie_together, box_pairs, coincidence_of
+from glrt.scene.shapes.flat_polygons import Polygons
 from glrt.scene.warnings import cautions
 from glrt.settings import settings_for
 from tests.support.builders import (
@@ -127,3 +128,13 @@ def test_shared_places_are_reported() -> None:
     scene = scene_of([{**LAMP, "name": "panel"}, SHARED["a ceiling"]], MATERIALS)
     (text,) = cautions(scene, settings_for(scene.render))
     assert text.startswith("objects[0] 'panel' overlaps objects[1] in one plane")
+
+
+def test_a_round_lamp_on_a_large_floor_shares_no_plane_with_it() -> None:
+    """A triangle at the pole of a ball of triangles leans on the floor and touches it."""
+    floor = np.array([[-18.0, 0, -18], [18, 0, -18], [18, 0, 18], [-18, 0, 18]])
+    lamp_at = np.array([[0.0, 3e-4, 0.01], [0.01, 3e-4, 0], [0, 0, 0]])
+    flat = np.array([[0.0, 3e-4, 0.01], [0.01, 3e-4, 0], [0, 3e-4, 0]])
+    ground = Polygons(floor[None], np.array([0]))
+    assert not _lie_together(ground, Polygons(lamp_at[None], np.array([1])))[0]
+    assert _lie_together(ground, Polygons(flat[None], np.array([1])))[0]

@@ -12,7 +12,7 @@ from glrt.cli.main import main
 from glrt.comparison.verdict import compare
 from glrt.image.sources import load
 from glrt.scene.export.gltf import to_gltf
-from glrt.scene.export.triangles import AROUND, corners_around, triangles_of
+from glrt.scene.export.triangles import AROUND, Ball, corners_around, triangles_of
 from glrt.scene.files.assets import AssetFolder
 from glrt.scene.loading.scene_files import with_files
 from glrt.scene.materials.principled import Principled
@@ -129,6 +129,7 @@ def test_a_checkerboard_stays_sharp_among_smooth_images(tmp_path: Path) -> None:
     assert texture.texels[..., :3].tolist() == [[[1, 0, 0], [0, 0, 1]], [[0, 0, 1], [1, 0, 0]]]
 
 
+UNIT = Ball(np.zeros(3), 1.0)
 SHAPES = {
     "sphere": sphere([0, 0, 0], 0.5, "m"),
     "box": box([-1, 0, 0.1], [0.7, 1.3, 2], "m", [10, 20, 30]),
@@ -139,7 +140,7 @@ SHAPES = {
 @pytest.mark.parametrize("name", SHAPES)
 def test_solids_are_closed_and_face_outwards(name: str) -> None:
     scene = scene_of([SHAPES[name]], {"m": glass(1.5)}, CAMERA, background={"color": [1, 1, 1]})
-    found = triangles_of(scene.objects[0], 1.0)
+    found = triangles_of(scene.objects[0], UNIT)
     assert found is not None
     points = found.points.astype(np.float32).astype(np.float64)
     solid = TriangleMesh(points, found.faces, found.normals)
@@ -155,7 +156,7 @@ def test_solids_are_closed_and_face_outwards(name: str) -> None:
 def test_what_is_round_has_fewer_corners_where_there_is_much(count: int, most: int) -> None:
     assert corners_around(count) == most
     ball = scene_of([SHAPES["sphere"]], {"m": glass(1.5)}, CAMERA, background={"color": [1, 1, 1]})
-    found = triangles_of(ball.objects[0], 1.0, most)
+    found = triangles_of(ball.objects[0], UNIT, most)
     assert found is not None
     assert len(found.faces) == most * (most - 2)
 
@@ -167,7 +168,7 @@ def test_coordinates_of_flat_and_round_shapes_are_those_of_textures() -> None:
         plane([0, 0, 1], [1, 2, 3], "m"),
     ]
     scene = scene_of(parts, {"m": PAINT}, CAMERA, background={"color": [1, 1, 1]})
-    ball, flat, ground = (triangles_of(it, 1.0) for it in scene.objects)
+    ball, flat, ground = (triangles_of(it, UNIT) for it in scene.objects)
     assert ball is not None
     assert ball.uv is not None
     x, y, z = ball.points.T

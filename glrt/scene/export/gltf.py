@@ -1,6 +1,7 @@
 """A scene as a glTF file, of what that format holds."""
 
 import math
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -10,7 +11,7 @@ from glrt.core.text import quoted
 from glrt.core.version import VERSION
 from glrt.scene.export.gltf_materials import MaterialWriter
 from glrt.scene.export.left_out import LeftOut, Report
-from glrt.scene.export.triangles import corners_around, triangles_of
+from glrt.scene.export.triangles import Ball, corners_around, triangles_of
 from glrt.scene.lit_scene import SUN_GROUP
 from glrt.scene.materials.nothing import Nothing
 from glrt.scene.model_files.gltf.lights import LUMENS
@@ -116,7 +117,7 @@ class _Writer:
         self._node({"name": name, "mesh": self._meshes[key], "matrix": _columns(matrix)})
 
     def _shape(self, item: Any, name: str) -> None:
-        found = triangles_of(item, self._radius, self._around)
+        found = triangles_of(item, self._ball, self._around)
         if found is None:
             self._report(f"{quoted(name)}, a {item.shape}")
             return
@@ -137,16 +138,16 @@ class _Writer:
         primitive = {"attributes": attributes, "indices": self.file.corners(faces)}
         return self.file.add("meshes", {"primitives": [{**primitive, "material": material}]})
 
-    @property
-    def _radius(self) -> float:
-        """Radius of a ball about the camera that holds what has an end, and what it looks at."""
+    @cached_property
+    def _ball(self) -> Ball:
+        """A ball about the camera that holds what has an end, and what it looks at."""
         eye = np.array(self._scene.camera.position)
         reaches = [
             float(np.linalg.norm(np.subtract(item.middle, eye))) + item.reach
             for item in self._scene.visible
             if math.isfinite(item.reach)
         ]
-        return max([*reaches, float(np.linalg.norm(self._scene.camera.view))])
+        return Ball(eye, max([*reaches, float(np.linalg.norm(self._scene.camera.view))]))
 
     def _sun(self) -> None:
         scene = self._scene

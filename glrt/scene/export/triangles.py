@@ -20,7 +20,9 @@ Ints = NDArray[np.int64]
 AROUND = 96  # corners of what is round, at most
 _FEWEST = 12
 _ROUND_IN_ALL = 1_000_000  # triangles of all that is round
-PLANE = 100.0  # half of the edge of the square that stands for a plane, over the scene's radius
+# Lines of the grid that stands for a plane, over the scene's radius. Its middle cell holds the
+# scene and is small, since programs know a point on a triangle to a part of the triangle's size.
+_LINES = np.array([-100.0, -2.0, 2.0, 100.0])
 
 
 class Triangles(NamedTuple):
@@ -41,18 +43,25 @@ def corners_around(count: int) -> int:
     return max(_FEWEST, min(AROUND, most - most % 2))
 
 
-def triangles_of(shape: Any, radius: float, around: int = AROUND) -> Triangles | None:
+class Ball(NamedTuple):
+    """A ball that holds a scene, without the far parts of planes."""
+
+    center: Floats
+    radius: float
+
+
+def triangles_of(shape: Any, scene: Ball, around: int = AROUND) -> Triangles | None:
     """Return the triangles of an analytic shape in scene units; None for a kind without any.
 
-    A plane becomes a square of PLANE times the radius of the scene, about its point. Round shapes
-    have `around` corners.
+    A plane becomes a square of 100 times the radius of the scene, about the point next to its
+    center. Round shapes have `around` corners.
     """
     if isinstance(shape, Quad):
         given = shape.corner, shape.edge_u, shape.edge_v
         corner, u, v = (np.array(it, np.float64) for it in given)
         return _square(corner, u, v, np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]]))
     if isinstance(shape, Plane):
-        return _plane(shape, PLANE * radius)
+        return _plane(shape, scene)
     if isinstance(shape, Box):
         return _box(shape)
     if isinstance(shape, Disk):
@@ -85,14 +94,24 @@ def _box(shape: Box) -> Triangles:
     return _joined(faces)
 
 
-def _plane(shape: Plane, half: float) -> Triangles:
+def _plane(shape: Plane, scene: Ball) -> Triangles:
     axes, normal = shape.texture_axes, np.array(shape.normal, np.float64)
-    ends = half * np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])
-    upright = np.cross(axes.u, axes.v) @ normal > 0
-    uv = ends if upright else ends[::-1]
-    points = np.array(shape.point, np.float64) + uv @ np.stack([axes.u, axes.v])
-    normals = np.tile(normal / np.linalg.norm(normal), (4, 1))
-    return Triangles(points, np.array([[0, 1, 2], [0, 2, 3]]), normals, uv)
+    normal /= np.linalg.norm(normal)
+    foot = scene.center - ((scene.center - np.array(shape.point)) @ normal) * normal
+    across = np.stack([axes.u, axes.v])
+    lines = scene.radius * _LINES
+    ends = np.array([[x, y] for y in lines for x in lines])
+    side = len(lines)
+    cells = np.array([y * side + x for y in range(side - 1) for x in range(side - 1)])
+    right, above = cells + 1, cells + side
+    faces = np.concatenate(
+        [np.stack([cells, right, above + 1], 1), np.stack([cells, above + 1, above], 1)]
+    )
+    if np.cross(axes.u, axes.v) @ normal < 0:
+        faces = faces[:, ::-1]
+    points = foot + ends @ across
+    uv = (points - axes.origin) @ across.T
+    return Triangles(points, faces, np.tile(normal, (len(points), 1)), uv)
 
 
 def _polygon(corners: Floats, normal: Floats) -> Triangles:

@@ -23,7 +23,7 @@ from glrt.scene.export.placing import (
     placed,
     unit,
 )
-from glrt.scene.export.triangles import corners_around, triangles_of
+from glrt.scene.export.triangles import Ball, corners_around, triangles_of
 from glrt.scene.materials.base import Opaque
 from glrt.scene.scene import Scene
 from glrt.scene.shapes.box import Box
@@ -121,7 +121,7 @@ class Shapes:
                 yield {**self._surface(item), **_circle(place[0], facing, place[1])}
 
     def _painted_disk(self, item: Disk, name: str) -> Words:
-        found = triangles_of(item, 1.0, corners_around(1))
+        found = triangles_of(item, Ball(np.zeros(3), 1.0), corners_around(1))
         assert found is not None
         self.report(f"the roundness of {quoted(name)}, a disk with an image")
         form = Form(self.at.point(found.points), found.faces, None, found.uv)

@@ -15,7 +15,7 @@ from glrt.scene.export.pbrt.materials import Materials
 from glrt.scene.export.pbrt.text import directive, transform, with_parameters
 from glrt.scene.export.pbrt.textures import lying
 from glrt.scene.export.placing import Placing, around, corners, normal_of, placed
-from glrt.scene.export.triangles import corners_around, triangles_of
+from glrt.scene.export.triangles import Ball, corners_around, triangles_of
 from glrt.scene.lit_scene import Finish
 from glrt.scene.materials.base import Opaque
 from glrt.scene.materials.textures import Texture
@@ -118,7 +118,7 @@ class Shapes:
     def _triangles(
         self, item: Any, name: str, images: dict[str, Texture], holes: dict[str, Any]
     ) -> str:
-        found = triangles_of(item, 1.0, corners_around(1))
+        found = triangles_of(item, Ball(np.zeros(3), 1.0), corners_around(1))
         assert found is not None
         if not isinstance(item, Box):
             self.report(f"the roundness of {quoted(name)}, a {item.shape} with an image")
