@@ -79,7 +79,7 @@ def test_a_square_is_as_in_a_glb_file_to_the_bit(tmp_path: Path) -> None:
     glb = glrt.load(tmp_path / "model.glb")
     pictures = [glrt.render(scene, samples=2, width=32, height=32).radiance for scene in (usd, glb)]
     assert pictures[0].any()
-    assert np.array_equal(*pictures)
+    assert np.array_equal(pictures[0], pictures[1])
 
 
 INTERPOLATIONS = {  # values, and which of NORMALS each corner has
@@ -258,7 +258,8 @@ def test_solids_have_their_size_and_face_outwards(tmp_path: Path) -> None:
     assert areas(scene) == pytest.approx(expected, rel=5e-3)
     for number, (mesh, half) in enumerate(zip(scene.meshes, HALVES, strict=True)):
         points = np.subtract(mesh.triangles.vertices, (10 * number, 0, 0))
-        assert np.allclose([points.min(axis=0), points.max(axis=0)], [np.negative(half), half])
+        assert np.allclose(points.min(axis=0), np.negative(half))
+        assert np.allclose(points.max(axis=0), half)
         corners = points[mesh.triangles.faces]
         across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         middles = corners.mean(axis=1) if half[1] else np.array([[0, 1, 0]])
