@@ -104,7 +104,7 @@ def test_a_node_without_one_camera_is_refused_with_those_that_have_one(
 @pytest.mark.parametrize(
     ("file", "lines", "told"),
     [
-        ("cams.obj", [], r"camera\.file: 'cams\.obj' is no glTF file"),
+        ("cams.obj", [], r"camera\.file: 'cams\.obj' is no glTF or USD file"),
         ("none.glb", [], r"camera\.file: there is no file 'none\.glb'"),
         ("cams.glb", ['node = "still"', 'animation = "x"'], "unknown animation 'x'.* idle, ride"),
         ("cams.glb", ['node = "still"', "up = [0, 0, 1]"], "up is parallel to the view"),

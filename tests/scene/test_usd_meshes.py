@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import glrt
+from glrt.core.errors import SceneError
 from tests.support.gltf_files import Builder
 from tests.support.usd_files import (
     BINDS,
@@ -78,7 +79,7 @@ def test_a_square_is_as_in_a_glb_file_to_the_bit(tmp_path: Path) -> None:
     glb = glrt.load(tmp_path / "model.glb")
     pictures = [glrt.render(scene, samples=2, width=32, height=32).radiance for scene in (usd, glb)]
     assert pictures[0].any()
-    assert np.array_equal(*pictures)
+    assert np.array_equal(pictures[0], pictures[1])
 
 
 INTERPOLATIONS = {  # values, and which of NORMALS each corner has
@@ -257,8 +258,27 @@ def test_solids_have_their_size_and_face_outwards(tmp_path: Path) -> None:
     assert areas(scene) == pytest.approx(expected, rel=5e-3)
     for number, (mesh, half) in enumerate(zip(scene.meshes, HALVES, strict=True)):
         points = np.subtract(mesh.triangles.vertices, (10 * number, 0, 0))
-        assert np.allclose([points.min(axis=0), points.max(axis=0)], [np.negative(half), half])
+        assert np.allclose(points.min(axis=0), np.negative(half))
+        assert np.allclose(points.max(axis=0), half)
         corners = points[mesh.triangles.faces]
         across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         middles = corners.mean(axis=1) if half[1] else np.array([[0, 1, 0]])
         assert ((across * middles).sum(axis=1) > 0).all()
+
+
+def test_damaged_geometry_is_refused_by_the_name_of_the_mesh(tmp_path: Path) -> None:
+    """A corner that is none of the points, and a point that is no number."""
+    lost = square().replace("[0, 1, 2, 3]", "[0, 1, 2, 9]")
+    with pytest.raises(SceneError, match="'/square' has corners that are none of its points"):
+        scene_of(tmp_path, layer(lost))
+    nowhere = square().replace("(1, 0, -1)", "(nan, 0, -1)")
+    with pytest.raises(SceneError, match="'/square' has a point that is no number"):
+        scene_of(tmp_path, layer(nowhere))
+
+
+def test_normals_that_are_no_numbers_are_means(tmp_path: Path) -> None:
+    """And reported."""
+    more = "normal3f[] normals = [(0, 1, 0), (nan, 0, 0), (0, 1, 0), (0, 1, 0)] (\n"
+    scene = scene_of(tmp_path, layer(square(more=more + 'interpolation = "vertex"\n)')))
+    assert np.allclose(scene.meshes[0].triangles_of_file.shading_normals, (0, 1, 0))
+    assert "normals" in left_out(scene)

@@ -43,6 +43,9 @@ class Lamps:
         if kind not in kinds:
             self._left.add("lights of meshes (MeshLightAPI)" if kind == "Mesh" else kind)
             return
+        if not np.isfinite(matrix).all():
+            self._left.add("lights placed beyond all numbers")
+            return
         self._note(prim)
         kinds[kind](prim, matrix, unit)
 
@@ -83,7 +86,7 @@ class Lamps:
 
     def _put(self, prim: Usd.Prim, matrix: Matrix, shape: Table, area: float) -> None:
         """Add the object and the material of a lamp of an area in units of the file."""
-        if not area > 0:
+        if not 0 < area < math.inf:
             self._left.add("lights of no size")
             return
         name = f"light {prim.GetName()}"

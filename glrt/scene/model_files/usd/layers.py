@@ -39,7 +39,7 @@ def opened_stage(folder: Folder) -> Usd.Stage:
     """
     root = _layer(str(folder.root))
     if root is None:
-        raise UnshownError("it is damaged, or no USD file")
+        raise UnshownError("is damaged, or no USD file")
     waiting, kept = [root], {root.identifier: root}
     while waiting:
         layer = waiting.pop()
@@ -51,11 +51,11 @@ def opened_stage(folder: Folder) -> Usd.Stage:
                 kept[found.identifier] = found
                 waiting.append(found)
         if len(kept) > _MOST_LAYERS:
-            raise UnshownError(f"it has more than {_MOST_LAYERS:,} layers")
+            raise UnshownError(f"has more than {_MOST_LAYERS:,} layers")
     folder.layers += _files(kept.values(), folder)
     stage = Usd.Stage.Open(root)
     if not stage:
-        raise UnshownError("its layers cannot be put together")
+        raise UnshownError("is damaged: its layers cannot be put together")
     return stage
 
 

@@ -12,12 +12,12 @@ from pxr import UsdShade
 
 from glrt.scene.model_files.usd.reports import LeftOut
 from glrt.scene.model_files.usd.texture_tables import Table, Textures, producer
-from glrt.scene.values import LARGEST
 
 COLORS = "displayColor"  # the primvar of colors of vertices, and the name of their material
 _SURFACE = "UsdPreviewSurface"
 _READER = "UsdPrimvarReader_float3"  # of colors of vertices
 _NEAR = 1e-4
+_BRIGHTEST = 1e9  # radiance
 _LARGEST_F0 = 0.99  # of an index of refraction of 399
 _DEFAULTS = {
     "metallic": ("metallic", 0.0),
@@ -183,7 +183,7 @@ class _Reading:
         table["specular_color"] = [each / most for each in color]
 
     def _emission(self) -> None:
-        found = self._color("emissiveColor", (0, 0, 0), LARGEST)
+        found = self._color("emissiveColor", (0, 0, 0), _BRIGHTEST)
         if isinstance(found, dict) or any(found):
             self.look.table["emission"] = found
 
@@ -211,10 +211,8 @@ class _Reading:
         scale, bias = self.textures.scale_and_bias(source)
         strength = scale[0] / 2
         usual = [2 * strength, 2 * strength, 2.0], [-strength, -strength, -1.0]
-        if any(
-            abs(a - b) > _NEAR
-            for a, b in zip(scale[:3] + bias[:3], usual[0] + usual[1], strict=True)
-        ):
+        pairs = zip(scale[:3] + bias[:3], usual[0] + usual[1], strict=True)
+        if not all(abs(a - b) <= _NEAR for a, b in pairs):
             self.left.add("scale and bias of normals other than 2 and -1")
             strength = 1.0
         self.look.table["normal"] = {**table, "strength": min(max(strength, 0.0), 100.0)}

@@ -16,6 +16,7 @@ from glrt.scene.model_files.usd.reports import LeftOut, UnshownError
 
 Matrix = NDArray[np.float64]
 
+_DAMAGE = (TypeError, LookupError, ArithmeticError, RuntimeError)  # of values that do not fit
 _MOST_NODES = 500_000
 _MOST_NESTED = 8  # point instancers
 # Without a picture of their own. Materials are read where something has them.
@@ -51,16 +52,21 @@ class Placing:
         """Add all that a file shows; `frame` leads to the scene, of `unit` in one of the file."""
         root = stage.GetPseudoRoot()
         for prim, matrix in self._shown(root, Usd.TraverseInstanceProxies(), None):
-            placed = frame @ matrix
-            if prim.IsA(UsdGeom.PointInstancer):
-                self._instances(UsdGeom.PointInstancer(prim), placed, 1)
-            elif prim.IsA(UsdGeom.Camera):
-                self._camera(prim, placed, unit)
-            elif prim.HasAPI(UsdLux.LightAPI):
-                self._lamps.add(prim, placed, 1 / unit)
-                self._mesh(prim, placed)
-            else:
-                self._mesh(prim, placed)
+            try:
+                self._place(prim, frame @ matrix, unit)
+            except _DAMAGE:
+                self._left.name("damaged parts", str(prim.GetPath()))
+
+    def _place(self, prim: Usd.Prim, placed: Matrix, unit: float) -> None:
+        if prim.IsA(UsdGeom.PointInstancer):
+            self._instances(UsdGeom.PointInstancer(prim), placed, 1)
+        elif prim.IsA(UsdGeom.Camera):
+            self._camera(prim, placed, unit)
+        elif prim.HasAPI(UsdLux.LightAPI):
+            self._lamps.add(prim, placed, 1 / unit)
+            self._mesh(prim, placed)
+        else:
+            self._mesh(prim, placed)
 
     def _shown(
         self, root: Usd.Prim, kinds: Any, above: Usd.Prim | None
@@ -88,7 +94,7 @@ class Placing:
 
     def _node(self, prim: Usd.Prim, matrix: Matrix, **more: Any) -> None:
         if len(self.nodes) >= _MOST_NODES:
-            raise UnshownError(f"it shows more than {_MOST_NODES:,} things")
+            raise UnshownError(f"shows more than {_MOST_NODES:,} things")
         table: Table = {"name": prim.GetName(), **more}
         if not np.isfinite(matrix).all():
             self._left.add("things placed beyond all numbers")
@@ -101,8 +107,10 @@ class Placing:
         table = camera_table(prim, self._time, self._left)
         if table is None:
             return
-        self.lenses[str(len(self.nodes))] = lens_table(prim, self._time, unit)
+        count, lens = len(self.nodes), lens_table(prim, self._time, unit)
         self._node(prim, matrix, camera=self._glb.add("cameras", table))
+        if len(self.nodes) > count:
+            self.lenses[str(count)] = lens
 
     def _mesh(self, prim: Usd.Prim, matrix: Matrix) -> None:
         number = self._number(prim)

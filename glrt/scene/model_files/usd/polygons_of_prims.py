@@ -7,7 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd, UsdGeom
 
-from glrt.scene.model_files.usd.reports import LeftOut
+from glrt.core.text import quoted
+from glrt.scene.model_files.usd.reports import LeftOut, UnshownError
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -36,7 +37,10 @@ class Polygons(NamedTuple):
 
 
 def polygons_of(prim: Usd.Prim, time: Usd.TimeCode, left: LeftOut) -> Polygons | None:
-    """Return the polygons of a mesh or solid; None for another prim, and for a damaged one."""
+    """Return the polygons of a mesh or solid; None for another prim, and for one without any.
+
+    Raises `UnshownError` for a damaged mesh.
+    """
     if prim.IsA(UsdGeom.Mesh):
         return _of_mesh(UsdGeom.Mesh(prim), time, left)
     make = _SOLIDS.get(prim.GetTypeName())
@@ -52,8 +56,11 @@ def _of_mesh(mesh: UsdGeom.Mesh, time: Usd.TimeCode, left: LeftOut) -> Polygons 
         return None
     is_sound = (counts >= 0).all() and counts.sum() == len(corners)
     if not is_sound or (corners < 0).any() or (corners >= len(points)).any():
-        left.add("meshes whose polygons have corners that there are not")
-        return None
+        raise UnshownError(
+            f"is damaged: the mesh {_path(mesh)} has corners that are none of its points"
+        )
+    if not np.isfinite(points).all():
+        raise UnshownError(f"is damaged: the mesh {_path(mesh)} has a point that is no number")
     kept = counts >= 3
     holes = _array(mesh.GetHoleIndicesAttr(), time, np.int64)
     kept[holes[(holes >= 0) & (holes < len(counts))]] = False
@@ -116,7 +123,14 @@ def placed_rows(
     if len(rows) != needed:
         left.name("primvars that do not fit their meshes", name)
         return None
+    if not np.isfinite(rows).all():
+        left.name("primvars that are no numbers", name)
+        rows = np.where(np.isfinite(rows), rows, 0.0)
     return Rows(rows, at)
+
+
+def _path(mesh: UsdGeom.Mesh) -> str:
+    return quoted(str(mesh.GetPath()))
 
 
 def _array(attribute: Usd.Attribute, time: Usd.TimeCode, dtype: Any) -> NDArray[Any]:

@@ -60,7 +60,7 @@ def glb_of(file: Path, base: Path, allow_outside: bool) -> bytes:
             raise ConversionError("is damaged, or no USD file. Export it again")
         content = output.read_bytes()
     if content[:4] != b"glTF":
-        raise ConversionError(f"cannot be shown: {json.loads(content)['problem']}. Export it again")
+        raise ConversionError(f"{json.loads(content)['problem']}. Export it again")
     return content
 
 

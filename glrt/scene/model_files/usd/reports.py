@@ -7,7 +7,7 @@ _MOST_NAMED = 20  # of a kind
 
 
 class UnshownError(ContentError):
-    """A USD file cannot be shown; the message says why."""
+    """A USD file cannot be shown; the message completes `FILE ...`, without a full stop."""
 
 
 class LeftOut:

@@ -106,6 +106,9 @@ class Textures:
         right, up = map(float, self.value(shader, "translation", (0, 0)))
         sin, cos = math.sin(math.radians(degrees)), math.cos(math.radians(degrees))
         offset = [right - sin * height, 1 - up - cos * height]
+        if not all(map(math.isfinite, [width, height, degrees, *offset])):
+            self._folder.left.add("transforms of textures that are no numbers")
+            return {}
         return {"scale": [width, height], "rotation": degrees, "offset": offset}
 
     def _image(self, shader: UsdShade.Shader, kind: str) -> int | None:
