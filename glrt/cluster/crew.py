@@ -78,6 +78,12 @@ class Crew:
         self._look(at_once=True)
         return sorted(self._present - self.refused)
 
+    def fit_ones(self) -> list[str]:
+        """Return what `fit` returns; raises `RenderError` if that is nothing."""
+        if found := self.fit():
+            return found
+        raise RenderError(f"no worker of {self.place} is left that can render. {AGAIN}")
+
     def _choose_driver(self) -> bool:
         """Ask the workers for their drivers, and want the most common; False if interrupted."""
         while not (present := self.fit()):
@@ -198,7 +204,7 @@ class _Tasks:
         return number, answer["value"]
 
     def _again(self, number: int) -> None:
-        self.give([number], self._crew.fit() if self._crew.refused else ())
+        self.give([number], self._crew.fit_ones() if self._crew.refused else ())
 
     def _drop(self, key: Any) -> int:
         self.futures.pop(key)
