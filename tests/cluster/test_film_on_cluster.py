@@ -95,7 +95,7 @@ def test_a_worker_whose_driver_differs_renders_nothing(
         return True
 
     monkeypatch.setattr(crew.Crew, "_choose_driver", chosen)
-    with pytest.raises(RenderError, match="no worker .* is left that can render"):
+    with pytest.raises(RenderError, match=r"no worker .* is left that can render"):
         film(scene, tmp_path / "f", "--cluster", cluster.scheduler_address)
     told = capsys.readouterr().err
     assert told.count("takes no part: its driver is ") == 1
@@ -175,5 +175,5 @@ def test_a_scheduler_that_does_not_answer_is_named(
     scene: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("glrt.cluster.clusters.PATIENCE", 1)
-    with pytest.raises(RenderError, match="No scheduler answers at tcp://127.0.0.1:9"):
+    with pytest.raises(RenderError, match=r"No scheduler answers at tcp://127\.0\.0\.1:9"):
         film(scene, tmp_path / "f", "--cluster", "tcp://127.0.0.1:9")
