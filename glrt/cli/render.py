@@ -134,8 +134,12 @@ def _run(arguments: argparse.Namespace) -> int:
 
         chosen = choose(arguments, wanted.scene, wanted.settings, wanted.limits)
         wanted = replace(wanted, **chosen._asdict())
-    if not is_in_bands(arguments):  # particles do not go with bands, so no pilot is needed
-        wanted = with_caustics(arguments, wanted)
+    wanted = with_caustics(arguments, wanted)
+    if is_in_bands(arguments) and wanted.settings.caustics == "on":
+        raise UsageError(
+            "--caustics auto chose particles, and each worker of --cluster would follow all of "
+            "them again. Give --caustics off, or leave out --cluster."
+        )
     warn(wanted.scene, wanted.settings, settings_given(arguments), arguments.quiet)
     make = _render_in_bands if is_in_bands(arguments) else _render
     with Interruption().watched() as interruption:

@@ -16,6 +16,7 @@ from glrt.gpu.context import Choice, Pipeline
 from glrt.image.aovs import AovImage
 from glrt.image.film_state import FilmState
 from glrt.image.image import Image
+from glrt.image.net_channels import NO_NET
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
@@ -24,6 +25,7 @@ Crop = tuple[int, int, int, int]
 
 MOST_BANDS = 64
 TILE = 8  # rows of a work group
+_BY_ROWS = 5  # arrays of a film state before its nets
 
 
 def bands_of(settings: Settings) -> list[Crop]:
@@ -117,11 +119,10 @@ def joined(bands: Sequence[Image], settings: Settings) -> Image:
 
 
 def _joined_states(states: Sequence[FilmState]) -> FilmState:
-    """Return the state of all rows; those of nets have the scrambles before the rows."""
-    whole = FilmState(*(_stacked([state[k] for state in states]) for k in range(len(states[0]))))
-    first = states[0]
-    net = np.concatenate([s.net for s in states], axis=1) if len(first.net) else first.net
-    return whole._replace(net=net, counts=first.counts, shares=first.shares)
+    """Return the state of all rows; pixels have equal counts. Nets have scrambles before rows."""
+    net = np.concatenate([s.net for s in states], axis=1) if len(states[0].net) else NO_NET
+    rows = [_stacked([state[k] for state in states]) for k in range(_BY_ROWS)]
+    return FilmState(*rows, net)
 
 
 def _joined_aovs(parts: Sequence[AovImage]) -> AovImage:

@@ -17,7 +17,6 @@ from glrt.rendering.stopping import Interruption
 TICK = 0.5  # seconds between looks at signals and at the scheduler
 LOOK = 2.0  # seconds between looks at which workers there are
 FETCH = 60.0  # seconds for an answer to arrive
-AGAIN = "What is done is kept: start it again, and the same command continues."
 _FAILURES = {
     "KilledWorker": f"{DEATHS} workers ended while they rendered it, perhaps for lack of memory",
 }
@@ -29,15 +28,16 @@ _ERRORS = {error.exit_code: error for error in (UsageError, ContextError, Render
 class Crew:
     """The workers of a cluster, seen from its client.
 
-    `tell` gets sentences for the user; `show` gets tasks done, tasks in all, and workers present.
+    `say` gets sentences for the user; `show` gets tasks done, tasks in all, and workers present.
     """
 
     client: Any
     place: str
     context: str
     interruption: Interruption
-    tell: Callable[[str], None]
+    say: Callable[[str], None]
     show: Callable[[int, int, int], None] = lambda done, count, workers: None
+    advice: str = ""  # for the end of a message, when the cluster ends
     renderer: str = ""  # the driver whose bits are wanted
     refused: set[str] = field(default_factory=set)  # addresses
     _waits: bool = False
@@ -71,12 +71,18 @@ class Crew:
         """Give no more tasks to the worker of an answer that says why it is unfit."""
         if answer["address"] not in self.refused:
             self.refused.add(answer["address"])
-            self.tell(f"worker {answer['worker']} takes no part: {answer['unfit'].rstrip('.')}.")
+            self.say(f"worker {answer['worker']} takes no part: {answer['unfit'].rstrip('.')}.")
 
     def fit(self) -> list[str]:
         """Return the addresses of workers that may get tasks."""
         self._look(at_once=True)
         return sorted(self._present - self.refused)
+
+    def fit_ones(self) -> list[str]:
+        """Return what `fit` returns; raises `RenderError` if that is nothing."""
+        if found := self.fit():
+            return found
+        raise RenderError(f"no worker of {self.place} is left that can render. {self.advice}")
 
     def _choose_driver(self) -> bool:
         """Ask the workers for their drivers, and want the most common; False if interrupted."""
@@ -96,7 +102,7 @@ class Crew:
             elif "renderer" in answer:
                 drivers.append(answer["renderer"])
         if not drivers:
-            raise RenderError(f"no worker of {self.place} can render. {AGAIN}")
+            raise RenderError(f"no worker of {self.place} can render. {self.advice}")
         self.renderer = max(sorted(set(drivers)), key=drivers.count)
         return True
 
@@ -122,7 +128,9 @@ class Crew:
 
     def _check(self) -> None:
         if self.client.status != "running":
-            raise RenderError(f"The scheduler of {self.place} ended, or cannot be reached. {AGAIN}")
+            raise RenderError(
+                f"The scheduler of {self.place} ended, or cannot be reached. {self.advice}"
+            )
 
     def _look(self, at_once: bool = False) -> None:
         if not at_once and time.monotonic() < self._looked + LOOK:
@@ -133,7 +141,7 @@ class Crew:
             self._present = frozenset()
         self._looked = time.monotonic()
         if not self._present and not self._waits:
-            self.tell(f"no worker is at {self.place}; waiting for one.")
+            self.say(f"no worker is at {self.place}; waiting for one.")
         self._waits = not self._present
 
 
@@ -198,7 +206,7 @@ class _Tasks:
         return number, answer["value"]
 
     def _again(self, number: int) -> None:
-        self.give([number], self._crew.fit() if self._crew.refused else ())
+        self.give([number], self._crew.fit_ones() if self._crew.refused else ())
 
     def _drop(self, key: Any) -> int:
         self.futures.pop(key)

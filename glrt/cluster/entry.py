@@ -19,8 +19,8 @@ def do(
     """Return the answer to a task of a job, or what keeps this worker from it.
 
     `parcel` holds the job, and `digest` is its SHA-256; `number` is that of the task, and None asks
-    for the driver alone. `version` of glrt and `renderer` are those that the job needs; an empty
-    `renderer` is any. Keys of the answer: `worker`, `address`, `renderer`, and one of `unfit` (why
+    for the driver alone. The job needs this `version` of glrt and this `renderer`; an empty one is
+    any. Keys of the answer: `worker`, `address`, `renderer`, and one of `unfit` (why
     the worker cannot take part), `problem` (a message and its exit code) and `value`.
     """
     from distributed import get_worker

@@ -53,7 +53,7 @@ class FilmWork:
 def render_frames_on(
     crew: Crew, series: Series, numbers: Iterable[int], output: Output, options: RenderOptions
 ) -> Iterator[Frame]:
-    """Yield the frames as `render_frames` does: first those that stand, then others as they arrive.
+    """Yield the frames as `render_frames` does: first the kept ones, then others as they arrive.
 
     Their files have the bits that they have without a cluster, on the same driver. Raises
     `RenderError` if a file cannot be written or the cluster ends: the frames then stay.

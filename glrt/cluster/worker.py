@@ -20,7 +20,7 @@ class Work(Protocol):
 
 
 class Job(Protocol):
-    """What the tasks of a job have in common; it can be pickled."""
+    """The common part of all tasks; it can be pickled."""
 
     def begin(self) -> Work:
         """Return the work, without having done any."""
@@ -33,7 +33,7 @@ def packed(job: Job) -> tuple[bytes, str]:
 
 
 class _Kept:
-    """What stays in the process of a worker between tasks."""
+    """Driver and work, which stay in the process of a worker between tasks."""
 
     drivers: dict[str, str] = {}  # noqa: RUF012 - names of OpenGL drivers, by --context
     digest = ""

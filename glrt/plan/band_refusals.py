@@ -7,7 +7,7 @@ NOT_IN_BANDS: dict[str, str] = {  # by name of the option in `Way`
     "LAYERS": "bands lack the layers that the picture was summed from",
     "ADAPTIVE": "counts follow from pixels beyond a band",
     "PROBES": "each worker would fill all probes again",
-    "REUSE": "a sample asks pixels around, beyond a band",
+    "REUSE": "each worker would fill all probes again",
     "PARTICLES": "each worker would follow all particles again",
     "DENOISE": "it needs pixels beyond a band",
     "AUTO": "its measurement needs --error",

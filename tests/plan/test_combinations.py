@@ -13,6 +13,7 @@ import pytest
 
 from glrt.analysis.method_choice import caustics, search
 from glrt.cli import caustics as command
+from glrt.cli import render
 from glrt.cli.commands import run
 from glrt.core.errors import UsageError
 from glrt.plan.combinations import (
@@ -26,14 +27,19 @@ from glrt.plan.combinations import (
     reason,
     works,
 )
+from tests.support.lone_crew import alone
 from tests.support.ways import OPTIONS, SIZE, Options, merged, plain, relit, save_moving
 from tests.support.ways_together import try_together
 
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
-    """The folder in which commands run; methods are chosen on a frame that is as small."""
+    """The folder in which commands run; methods are chosen on a frame that is as small.
+
+    This process does the work of `--cluster`.
+    """
     monkeypatch.setattr(search, "HEIGHT", 12)
+    monkeypatch.setattr(render, "crew_of", alone)
     before = Path.cwd()
     os.chdir(tmp_path)
     yield tmp_path
@@ -74,7 +80,8 @@ REFUSED = [pair for pair in pairs() if not works(*pair)]
     "the independent*---*",
     "--sampler net-*",
 )
-@pytest.mark.slow_cases("*--adaptive on*")
+@pytest.mark.slow_cases("*--adaptive on*", "the fragment pipeline---cluster*")
+@pytest.mark.slow_cases("an open shutter---cluster*", "AOVs---cluster*")
 @pytest.mark.parametrize(
     ("one", "other"),
     [

@@ -37,6 +37,7 @@ OPTIONS: dict[Way, Options] = {
     Way.AUTO: ["--method", "auto", "--error", str(ASKED)],
     Way.TIME: ["--time", "0.1"],
     Way.ERROR: ["--error", str(ASKED)],
+    Way.CLUSTER: ["--cluster", "local:1"],
 }
 
 
@@ -237,6 +238,16 @@ def limit_law(way: Way) -> Callable[[Render], None]:
     return law
 
 
+def cluster_law(render: Render) -> None:
+    """It is the picture in one piece, bit for bit, and continues as that one does."""
+    found, whole = render(OPTIONS[Way.CLUSTER]), render([])
+    assert same(found, whole)
+    assert found.recipe == whole.recipe
+    assert (found.film_state is None) == (whole.film_state is None)
+    for one, other in zip(found.film_state or (), whole.film_state or (), strict=True):
+        assert np.array_equal(one, other, equal_nan=True)
+
+
 ALONE: dict[Way, Callable[[Options], None]] = {Way.RESUME: resume_law, Way.PART: part_law}
 LAWS: dict[Way, Callable[[Render], None]] = {
     Way.CROP: crop_law,
@@ -254,4 +265,5 @@ LAWS: dict[Way, Callable[[Render], None]] = {
     Way.AUTO: auto_law,
     Way.TIME: limit_law(Way.TIME),
     Way.ERROR: limit_law(Way.ERROR),
+    Way.CLUSTER: cluster_law,
 }

@@ -132,7 +132,20 @@ def merged_and_blurred() -> None:
     assert same(rendered("merged.exr"), found)
 
 
+def pilot_on_a_cluster() -> None:
+    """Particles that a pilot chooses are refused, since each worker would follow them all."""
+    options, cluster = OPTIONS[Way.PILOT], OPTIONS[Way.CLUSTER]
+    here = plain(options)
+    assert here.recipe
+    if here.recipe.settings.caustics == "off":
+        assert same(plain([*options, *cluster]), here)
+        return
+    with pytest.raises(UsageError, match="--caustics auto chose particles"):
+        plain([*options, *cluster])
+
+
 SPECIAL: dict[frozenset[Way], Callable[[], None]] = {
+    frozenset({Way.PILOT, Way.CLUSTER}): pilot_on_a_cluster,
     frozenset({Way.RESUME, Way.PART}): resume_a_part,
     frozenset({Way.RESUME, Way.REUSE}): resume_reuse,
     frozenset({Way.RESUME, Way.ADAPTIVE}): resume_adaptive,

@@ -68,7 +68,10 @@ class Reporter:
     def _to_go(self) -> str:
         left = len(self._film.numbers) - len(self._film.frames)
         times = [frame.seconds for frame in self._film.frames if frame.samples]
-        return f"; {left * float(np.median(times)):.0f} s to go" if left else ""
+        each = float(np.median(times))
+        if self._arguments.cluster:  # workers render several at once
+            each = (time.perf_counter() - self._start) / len(times)
+        return f"; {left * each:.0f} s to go" if left else ""
 
     def summarize(self) -> None:
         """Print the figures of the film, and a caution about frames that are black."""

@@ -27,7 +27,7 @@ class Driver(NamedTuple):
 
 
 class Finished(NamedTuple):
-    """What a report needs of a renderer, for a picture that workers have rendered."""
+    """The part of a renderer that a report needs, for a picture that workers have rendered."""
 
     scene: Scene
     settings: Settings
@@ -42,7 +42,7 @@ class Finished(NamedTuple):
 
     @property
     def plan(self) -> Plan:
-        """What the picture needs of a kernel."""
+        """The needs of the picture of a kernel."""
         return Plan(SceneFacts(self.scene), self.settings, "none")
 
     def nonfinite(self) -> int:

@@ -1,0 +1,1 @@
+"""Films and pictures by the workers of a cluster."""
