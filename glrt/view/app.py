@@ -268,6 +268,7 @@ class App(Selection):
     def release(self) -> None:
         """End other processes and threads, and release OpenGL: the window closes."""
         self.exports.end()
+        self.files.finish_picture()
         self.pair.go_on(False)
         self.show.release()
         self.paths.release()

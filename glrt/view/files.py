@@ -1,6 +1,5 @@
 """Open and save scenes, models, pictures and recipes in the window."""
 
-import os
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import partial
@@ -9,12 +8,10 @@ from pathlib import Path
 from imgui_bundle import imgui
 
 from glrt.core.errors import GlrtError
-from glrt.core.files import unused, write_text
+from glrt.core.files import unused
 from glrt.core.text import escaped
 from glrt.image.recipe import Recipe
 from glrt.image.sources import STRICT, FileRules, load_recipe, scene_file_of
-from glrt.rendering.paths.file import paths_to_json
-from glrt.rendering.paths.values import PixelPaths
 from glrt.scene.scene import Scene
 from glrt.scene.scenefile.catalog import MODELS
 from glrt.scene.scenefile.toml_writer import scene_with, write_scene
@@ -23,20 +20,20 @@ from glrt.view.edits.edited_state import State, plain
 from glrt.view.edits.file_camera import seen_as_before, to_be_saved
 from glrt.view.edits.sky_images import is_sky, with_sky_image
 from glrt.view.edits.unsaved import is_edited, is_other
-from glrt.view.file_dialogs import PICTURE, SCENE, SCENES, Dialogs
+from glrt.view.file_dialogs import SCENE, SCENES, Dialogs
 from glrt.view.file_places import folder_of, where
 from glrt.view.file_watch import Watch, watch_for
-from glrt.view.messages import Messages, nothing
+from glrt.view.messages import Messages, Then, nothing
 from glrt.view.opening import Aside, is_large
+from glrt.view.picture_files import PictureFiles
 from glrt.view.state.recent import load_recent, save_recent, with_opened
 from glrt.view.state.session import Session
 
-Then = Callable[[], object]
 PICTURE_NAME = "picture.png"
 
 
 @dataclass
-class Files:
+class Files(PictureFiles):
     """Opens and saves scenes and pictures; replaces no file without asking."""
 
     session: Session
@@ -181,6 +178,7 @@ class Files:
 
     def follow(self, now: float) -> None:
         """Take the scene that a thread has read; reload a file that another program has changed."""
+        self.follow_picture()
         with self.messages.reporting():
             self.aside.follow(self._opened)
         if self.aside.note and self.session.renderer and not self.session.is_behind:
@@ -247,35 +245,6 @@ class Files:
         is_own = bool(self.watch) and Path(path).absolute() == Path(self.source).absolute()
         self.unless_there(path, is_own or is_agreed, lambda: self.save_scene(path) and then())
 
-    def save_picture(self, path: str = "") -> None:
-        """Save the picture with its recipe to a path, by default that of the text box."""
-        path = path or self.picture_path
-        if not self.session.samples:
-            return self.messages.complain("There is no picture yet.")
-        with self.messages.reporting():
-            self.session.image().save(path)
-            self.messages.report(f"Saved {where(Path(path))}")
-            if path != unused(self.picture_name) and path != self.picture_path:
-                self.picture_name = path
-            self.picture_path = unused(self.picture_name)
-        return None
-
-    def ask_save_picture(self, path: str, is_agreed: bool = False) -> None:
-        """Save the picture; ask before an existing file is replaced."""
-        self.unless_there(path, is_agreed, lambda: self.save_picture(path))
-
-    def browse_picture(self) -> None:
-        """Show a dialog to choose where the picture is saved."""
-        given = "Save the picture", self.picture_path, PICTURE, ".png"
-        self.dialogs.ask_save(*given, self.ask_save_picture)
-
-    def save_paths(self, found: PixelPaths) -> None:
-        """Save the paths of a pixel to a new file, which `glrt paths --replay` traces again."""
-        path = Path(unused("paths.json"))
-        with self.messages.reporting():
-            write_text(path, paths_to_json(found) + "\n")
-            self.messages.report(f"Saved {where(path)}")
-
     def close(self, leave: Then) -> None:
         """Close the window by `leave`; ask first if that would lose edits."""
         self._unless_lost("Close the window?", leave)
@@ -291,10 +260,3 @@ class Files:
             save=lambda: self.save_again(act),
             do_not_save=act,
         )
-
-    def unless_there(self, path: str, is_agreed: bool, act: Then) -> None:
-        """Act; ask before that if a file is there that would be replaced."""
-        if os.path.exists(path) and not is_agreed:
-            self.messages.ask("Replace it?", f"{where(Path(path))} is there already.", replace=act)
-        else:
-            act()

@@ -13,6 +13,7 @@ Modules, each importing only what stands above it:
 - frame_budget: render time per frame
 - layer_limits: whether a driver has room for layers
 - compile_ahead: a kernel compiled by another process
+- awaited_kernel: an edit that waits for its kernel
 - idle_kernel: when the faster kernel takes over
 - zoom: visible part of the picture
 - histogram: histogram of brightness
