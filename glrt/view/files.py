@@ -18,6 +18,7 @@ from glrt.scene.scenefile.toml_writer import scene_with, write_scene
 from glrt.settings import RenderSettings
 from glrt.view.edits.edited_state import State, plain
 from glrt.view.edits.file_camera import seen_as_before, to_be_saved
+from glrt.view.edits.keyframes import rested
 from glrt.view.edits.sky_images import is_sky, with_sky_image
 from glrt.view.edits.unsaved import is_edited, is_other
 from glrt.view.file_dialogs import SCENE, SCENES, Dialogs
@@ -63,12 +64,17 @@ class Files(PictureFiles):
     @property
     def is_changed(self) -> bool:
         """Whether the scene has unsaved edits; changed camera or settings do not count."""
-        return self.is_lost or is_edited(self.saved, self.session.scene)
+        return self.is_lost or is_edited(self.saved, self._rested)
 
     @property
     def is_other(self) -> bool:
         """Whether a save would change the file: camera and settings count, too."""
-        return self.is_lost or is_other(self.written, self.session.scene, self.session.settings)
+        return self.is_lost or is_other(self.written, self._rested, self.session.settings)
+
+    @property
+    def _rested(self) -> Scene:
+        """The scene as a save writes it, whatever frame of its animation is shown."""
+        return rested(self.session.scene, self.saved)
 
     @property
     def is_lost(self) -> bool:
@@ -157,12 +163,12 @@ class Files(PictureFiles):
         self.scene_path = source if self.watch else unused("scene.toml")
         self.picture_name = str(folder_of(source) / PICTURE_NAME)
         self.picture_path = unused(self.picture_name)
-        self._mark_saved()
+        self._mark_saved(self.session.scene)
         self._remember(source)
 
-    def _mark_saved(self) -> None:
-        """Remember that a file holds the scene and settings as they are now."""
-        self.saved = self.session.scene
+    def _mark_saved(self, scene: Scene) -> None:
+        """Remember that a file holds the scene, and the settings as they are now."""
+        self.saved = scene
         self.written = scene_with(self.saved, self.session.settings)
 
     def _remember(self, source: str) -> None:
@@ -196,7 +202,7 @@ class Files(PictureFiles):
     def reload(self) -> None:
         """Read the scene file again; the camera and the settings stay."""
         with self.messages.reporting():
-            had_edits = is_edited(self.saved, self.session.scene)
+            had_edits = is_edited(self.saved, self._rested)
             found, _ = load_recipe(self.source, self.rules._replace(variant=None))
             lost = "; undo brings your edits back" * had_edits
             self.session.problem = ""
@@ -207,7 +213,7 @@ class Files(PictureFiles):
     def save_scene(self, path: str = "") -> bool:
         """Save the scene to a path, by default that of the text box; returns whether it worked."""
         self.scene_path = path or self.scene_path
-        scene = to_be_saved(self.session.scene, self.session.opened.scene.camera)
+        scene = to_be_saved(self._rested, self.session.opened.scene.camera)
         whole, file = scene_with(scene, self.session.settings), Path(self.scene_path)
         try:
             model = None if self.is_lost else self.model
@@ -218,7 +224,7 @@ class Files(PictureFiles):
         if self.is_lost:
             self.session.problem = ""
         self.source, self.watch, self.model = str(file), watch_for(str(file)), file
-        self._mark_saved()
+        self._mark_saved(self._rested)
         self._remember(self.source)
         lost = "" if has_comments or not model else f", without the comments of {model.name}"
         self.messages.report(f"Saved {where(file)}{lost}")

@@ -228,7 +228,7 @@ class Window:
         self._poll(now)
         is_done = self.app.show.is_done(self.app.session) and self.app.pair.is_done
         is_done = is_done and not (self.app.paths.is_waiting or self.app.progress.is_looking)
-        is_done |= self.app.shows_start
+        is_done = (is_done and not self.app.timeline.is_playing) or self.app.shows_start
         return is_done and not self._interruption.signal and self._reports(now) == self._told
 
     def _reports(self, now: float) -> tuple[object, ...]:
