@@ -1,5 +1,6 @@
 """Time to the window, to its first picture and to full size after a drag: one Markdown table.
 
+With `--stops` it is the longest stop of each action instead, from frame to frame.
 Each row is of a `glrt view` in a process of its own, on a virtual X server, Xvfb. At a second run
 the trees and kernels of all scenes come from the caches. The load stands above the table: times of
 loaded cores are not those of quiet ones.
@@ -12,7 +13,7 @@ import shutil
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import NamedTuple
@@ -27,6 +28,8 @@ SIZES = "1240x800", "3840x2160"
 SIDE = 500  # quads along each side of the large model, of two triangles each
 LARGE = "500,000 triangles"
 SCENES = "cornell", "scenes/models/cow.glb", LARGE
+COLUMNS = "scene", "window", "to the window", "to a picture", "full size after a drag", "frames/s"
+STOPS = "scene", "window", "action", "longest stop", "processor seconds of a frame, at most"
 PATIENCE = 600.0  # seconds for one row
 
 
@@ -44,6 +47,8 @@ def main(arguments: list[str] | None = None) -> int:
     parser = parser_of("window_times", __doc__)
     parser.add_argument("scenes", nargs="*", default=SCENES, help=f"default: {', '.join(SCENES)}")
     parser.add_argument("--sizes", nargs="+", default=SIZES, help=f"default: {' '.join(SIZES)}")
+    told = "the longest stop of each action, in a second window that finds all caches filled"
+    parser.add_argument("--stops", action="store_true", help=told)
     return exit_code_of(lambda: _run(parser.parse_args(arguments)))
 
 
@@ -54,32 +59,59 @@ def _run(parsed: argparse.Namespace) -> int:
     with TemporaryDirectory() as folder:
         large = Path(folder) / "large.ply"
         write_torus(large, SIDE)
-        print("\n".join(head(os.getloadavg()[0])), flush=True)
+        columns = STOPS if parsed.stops else COLUMNS
+        print("\n".join(head(os.getloadavg()[0], columns)), flush=True)
         for scene in parsed.scenes:
             for size in parsed.sizes:
                 source = str(large) if scene == LARGE else scene
-                print(row(scene, size, measured(source, size, Path(folder))), flush=True)
+                if parsed.stops:
+                    rows = [stop_row(scene, size, *it) for it in stops(source, size, folder)]
+                else:
+                    rows = [row(scene, size, measured(source, size, Path(folder)))]
+                print("\n".join(rows), flush=True)
     return 0
 
 
 def measured(source: str, size: str, folder: Path) -> Times:
     """Measure a window of a size as "WxH"; RenderError if it fails."""
+    words = "bench.window_times_side", str(time.time()), size, source
+    return Times(**json.loads(_told_by(*words, size=size, folder=folder)))
+
+
+def stops(source: str, size: str, folder: str) -> list[tuple[str, float, float]]:
+    """Measure the actions of a window: name, seconds, and processor seconds.
+
+    A window before it fills the caches. Raises RenderError if it fails.
+    """
+    for _ in range(2):
+        told = _told_by("bench.window_stops_side", size, source, size=size, folder=Path(folder))
+    return [(name, *times) for name, times in json.loads(told).items()]
+
+
+def _told_by(module: str, *words: str, size: str, folder: Path) -> str:
+    """Return the output of a window of a size; its preferences lie in the folder."""
     with screen(size) as name:
         variables = {"DISPLAY": name, "XDG_CONFIG_HOME": str(folder)}
-        command = [sys.executable, "-m", "bench.window_times_side", str(time.time()), size, source]
+        command = [sys.executable, "-m", module, *words]
         done = subprocess.run(
             command, env={**os.environ, **variables}, capture_output=True, timeout=PATIENCE
         )
     if done.returncode:
-        raise RenderError(f"the window of {source} failed: {done.stderr.decode()[-500:]}")
-    return Times(**json.loads(done.stdout))
+        raise RenderError(f"a window failed: {done.stderr.decode()[-500:]}")
+    return done.stdout.decode()
 
 
-def head(load: float) -> Iterator[str]:
+def head(load: float, columns: Sequence[str] = COLUMNS) -> Iterator[str]:
     """The lines above the rows; the mean number of processes that wanted a processor before."""
     yield f"{machine()}, load {load:.1f}\n"
-    yield "| scene | window | to the window | to a picture | full size after a drag | frames/s |"
-    yield "|---|---|---|---|---|---|"
+    yield f"| {' | '.join(columns)} |"
+    yield f"|{'---|' * len(columns)}"
+
+
+def stop_row(scene: str, size: str, action: str, seconds: float, busy: float) -> str:
+    """A row of the table of stops."""
+    cells = Path(scene).name, size, action, f"{seconds:.2f} s", f"{busy:.2f} s"
+    return f"| {' | '.join(cells)} |"
 
 
 def row(scene: str, size: str, times: Times) -> str:

@@ -118,6 +118,11 @@ class DeviceScene:
         return bool(self._constants["REUSES_OWN"] or self._constants["REUSES_NEAR"])
 
     @property
+    def tree(self) -> SceneTree | None:
+        """The BVH of the scene."""
+        return self._tree
+
+    @property
     def shaders(self) -> list[Source]:
         """The shader sources of the scene's kernel."""
         return self._shaders(self._texts)

@@ -18,8 +18,10 @@ Modules, each importing only what stands above it:
 - messages: messages and questions
 - kernel_notes: notes on kernels that a driver keeps compiled
 - scene_compiler: another process that compiles the kernel of a scene
+- edit_compiler: another process that compiles the kernel of an edit
 - opening: a large scene that a thread reads
 - file_places: places of files
+- picture_files: saved pictures and paths
 - files: open and saved files
 - recovery: unsaved edits kept for the next start
 - export: pictures and films that leave the window

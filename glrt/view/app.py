@@ -30,6 +30,7 @@ from glrt.view.state.keys import Action
 from glrt.view.state.path_explorer import PathExplorer
 from glrt.view.state.preferences import Preferences, save_preferences
 from glrt.view.state.session import Session
+from glrt.view.state.timeline import Timeline
 from glrt.view.state.zoom import FIT, Rectangle, Zoom
 from glrt.view.viewport.black import Blackness
 from glrt.view.viewport.picture import Picture
@@ -73,6 +74,7 @@ class App(Selection):
     shows_palette: bool = False  # whether words find controls and commands
     shows_start: bool = False  # whether scenes to open are shown in place of the picture
     paths: PathExplorer = field(init=False)
+    timeline: Timeline = field(init=False)
     silhouette: Silhouette = field(init=False)  # of the selected mesh
     tour_step: int | None = 0  # step on the screen; None: closed until the next start
     tour_beside: tuple[float, float] = (0.0, 0.0)  # window size when the tour was placed
@@ -93,6 +95,7 @@ class App(Selection):
         """Create the parts that depend on the session and on the opened source."""
         self.load = LoadMeter(self.session.context.renderer)
         self.paths = PathExplorer(self.session.context)
+        self.timeline = Timeline(self.session)
         self.silhouette = Silhouette(self.session.context.gl)
         self.pair = Pair(self.session, self.show, self.restart)
         recent = self.preferences_file.with_name("recent.json")
@@ -115,6 +118,7 @@ class App(Selection):
     def show_scene(self, scene: Scene) -> None:
         """Reset the pivot and the selection for a scene that was opened."""
         self.pivot, self.selected = scene.camera.look_at, None
+        self.timeline.begin()
         if self.shows_start and not self.session.renderer:
             self.session.history.forget()  # the scene before was never seen
         self.shows_start = False
@@ -237,6 +241,7 @@ class App(Selection):
     def _step(self, step: Callable[[], None], told: str) -> None:
         before = self.session.scene.objects
         step()
+        self.timeline.show(self.timeline.frame)
         self.messages.report(told or "There is nothing more to undo or redo")
         self.selected = found_again(before, self.session.scene.objects, self.selected)
 
@@ -250,12 +255,12 @@ class App(Selection):
         if self.shows_start:
             return
         try:
-            count = self.preferences.samples_per_frame
             chosen = self.preferences
             self.session.moving.use(Way(chosen.temporal, chosen.predictor))
             start = time.perf_counter()
-            self.show.holds = self.pair.advance(self.pace.seconds, count)
-            self.show.advance(self.session, self.pace.seconds, count)
+            self.timeline.follow(start)
+            self.show.holds = self.pair.advance(self.pace.seconds, chosen.samples_per_frame)
+            self.show.advance(self.session, self.pace.seconds, chosen.samples_per_frame)
             self.sampling_seconds = time.perf_counter() - start
             self.show.draw(self.session)
             if self.show.drawn == "picture":
@@ -268,6 +273,7 @@ class App(Selection):
     def release(self) -> None:
         """End other processes and threads, and release OpenGL: the window closes."""
         self.exports.end()
+        self.files.finish_picture()
         self.pair.go_on(False)
         self.show.release()
         self.paths.release()

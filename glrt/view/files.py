@@ -1,6 +1,5 @@
 """Open and save scenes, models, pictures and recipes in the window."""
 
-import os
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import partial
@@ -9,34 +8,33 @@ from pathlib import Path
 from imgui_bundle import imgui
 
 from glrt.core.errors import GlrtError
-from glrt.core.files import unused, write_text
+from glrt.core.files import unused
 from glrt.core.text import escaped
 from glrt.image.recipe import Recipe
 from glrt.image.sources import STRICT, FileRules, load_recipe, scene_file_of
-from glrt.rendering.paths.file import paths_to_json
-from glrt.rendering.paths.values import PixelPaths
 from glrt.scene.scene import Scene
 from glrt.scene.scenefile.catalog import MODELS
 from glrt.scene.scenefile.toml_writer import scene_with, write_scene
 from glrt.settings import RenderSettings
 from glrt.view.edits.edited_state import State, plain
 from glrt.view.edits.file_camera import seen_as_before, to_be_saved
+from glrt.view.edits.keyframes import rested
 from glrt.view.edits.sky_images import is_sky, with_sky_image
 from glrt.view.edits.unsaved import is_edited, is_other
-from glrt.view.file_dialogs import PICTURE, SCENE, SCENES, Dialogs
+from glrt.view.file_dialogs import SCENE, SCENES, Dialogs
 from glrt.view.file_places import folder_of, where
 from glrt.view.file_watch import Watch, watch_for
-from glrt.view.messages import Messages, nothing
+from glrt.view.messages import Messages, Then, nothing
 from glrt.view.opening import Aside, is_large
+from glrt.view.picture_files import PictureFiles
 from glrt.view.state.recent import load_recent, save_recent, with_opened
 from glrt.view.state.session import Session
 
-Then = Callable[[], object]
 PICTURE_NAME = "picture.png"
 
 
 @dataclass
-class Files:
+class Files(PictureFiles):
     """Opens and saves scenes and pictures; replaces no file without asking."""
 
     session: Session
@@ -66,12 +64,17 @@ class Files:
     @property
     def is_changed(self) -> bool:
         """Whether the scene has unsaved edits; changed camera or settings do not count."""
-        return self.is_lost or is_edited(self.saved, self.session.scene)
+        return self.is_lost or is_edited(self.saved, self._rested)
 
     @property
     def is_other(self) -> bool:
         """Whether a save would change the file: camera and settings count, too."""
-        return self.is_lost or is_other(self.written, self.session.scene, self.session.settings)
+        return self.is_lost or is_other(self.written, self._rested, self.session.settings)
+
+    @property
+    def _rested(self) -> Scene:
+        """The scene as a save writes it, whatever frame of its animation is shown."""
+        return rested(self.session.scene, self.saved)
 
     @property
     def is_lost(self) -> bool:
@@ -160,12 +163,12 @@ class Files:
         self.scene_path = source if self.watch else unused("scene.toml")
         self.picture_name = str(folder_of(source) / PICTURE_NAME)
         self.picture_path = unused(self.picture_name)
-        self._mark_saved()
+        self._mark_saved(self.session.scene)
         self._remember(source)
 
-    def _mark_saved(self) -> None:
-        """Remember that a file holds the scene and settings as they are now."""
-        self.saved = self.session.scene
+    def _mark_saved(self, scene: Scene) -> None:
+        """Remember that a file holds the scene, and the settings as they are now."""
+        self.saved = scene
         self.written = scene_with(self.saved, self.session.settings)
 
     def _remember(self, source: str) -> None:
@@ -181,6 +184,7 @@ class Files:
 
     def follow(self, now: float) -> None:
         """Take the scene that a thread has read; reload a file that another program has changed."""
+        self.follow_picture()
         with self.messages.reporting():
             self.aside.follow(self._opened)
         if self.aside.note and self.session.renderer and not self.session.is_behind:
@@ -198,7 +202,7 @@ class Files:
     def reload(self) -> None:
         """Read the scene file again; the camera and the settings stay."""
         with self.messages.reporting():
-            had_edits = is_edited(self.saved, self.session.scene)
+            had_edits = is_edited(self.saved, self._rested)
             found, _ = load_recipe(self.source, self.rules._replace(variant=None))
             lost = "; undo brings your edits back" * had_edits
             self.session.problem = ""
@@ -209,7 +213,7 @@ class Files:
     def save_scene(self, path: str = "") -> bool:
         """Save the scene to a path, by default that of the text box; returns whether it worked."""
         self.scene_path = path or self.scene_path
-        scene = to_be_saved(self.session.scene, self.session.opened.scene.camera)
+        scene = to_be_saved(self._rested, self.session.opened.scene.camera)
         whole, file = scene_with(scene, self.session.settings), Path(self.scene_path)
         try:
             model = None if self.is_lost else self.model
@@ -220,7 +224,7 @@ class Files:
         if self.is_lost:
             self.session.problem = ""
         self.source, self.watch, self.model = str(file), watch_for(str(file)), file
-        self._mark_saved()
+        self._mark_saved(self._rested)
         self._remember(self.source)
         lost = "" if has_comments or not model else f", without the comments of {model.name}"
         self.messages.report(f"Saved {where(file)}{lost}")
@@ -247,35 +251,6 @@ class Files:
         is_own = bool(self.watch) and Path(path).absolute() == Path(self.source).absolute()
         self.unless_there(path, is_own or is_agreed, lambda: self.save_scene(path) and then())
 
-    def save_picture(self, path: str = "") -> None:
-        """Save the picture with its recipe to a path, by default that of the text box."""
-        path = path or self.picture_path
-        if not self.session.samples:
-            return self.messages.complain("There is no picture yet.")
-        with self.messages.reporting():
-            self.session.image().save(path)
-            self.messages.report(f"Saved {where(Path(path))}")
-            if path != unused(self.picture_name) and path != self.picture_path:
-                self.picture_name = path
-            self.picture_path = unused(self.picture_name)
-        return None
-
-    def ask_save_picture(self, path: str, is_agreed: bool = False) -> None:
-        """Save the picture; ask before an existing file is replaced."""
-        self.unless_there(path, is_agreed, lambda: self.save_picture(path))
-
-    def browse_picture(self) -> None:
-        """Show a dialog to choose where the picture is saved."""
-        given = "Save the picture", self.picture_path, PICTURE, ".png"
-        self.dialogs.ask_save(*given, self.ask_save_picture)
-
-    def save_paths(self, found: PixelPaths) -> None:
-        """Save the paths of a pixel to a new file, which `glrt paths --replay` traces again."""
-        path = Path(unused("paths.json"))
-        with self.messages.reporting():
-            write_text(path, paths_to_json(found) + "\n")
-            self.messages.report(f"Saved {where(path)}")
-
     def close(self, leave: Then) -> None:
         """Close the window by `leave`; ask first if that would lose edits."""
         self._unless_lost("Close the window?", leave)
@@ -291,10 +266,3 @@ class Files:
             save=lambda: self.save_again(act),
             do_not_save=act,
         )
-
-    def unless_there(self, path: str, is_agreed: bool, act: Then) -> None:
-        """Act; ask before that if a file is there that would be replaced."""
-        if os.path.exists(path) and not is_agreed:
-            self.messages.ask("Replace it?", f"{where(Path(path))} is there already.", replace=act)
-        else:
-            act()

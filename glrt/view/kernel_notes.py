@@ -8,6 +8,7 @@ import hashlib
 import os
 from collections.abc import Sequence
 from contextlib import suppress
+from pathlib import Path
 from typing import NamedTuple
 
 from glrt.core.resources import cache_folder
@@ -17,6 +18,7 @@ from glrt.rendering.history.temporal import Way
 from glrt.rendering.passes import Resolved
 from glrt.view.state.session import Session
 
+_compiled: set[Path] = set()  # notes on what other processes compiled for this one
 SLOW = 1.5  # processor seconds to open a scene: compiling takes 3 and more
 _PLACES = (  # variables by which users move a driver's cache, or turn it off
     *("MESA_SHADER_CACHE_DIR", "MESA_SHADER_CACHE_DISABLE", "MESA_GLSL_CACHE_DIR"),
@@ -43,11 +45,11 @@ def driver_of(session: Session) -> Driver:
 class Note:
     """The note on one kernel of one driver."""
 
-    def __init__(self, shaders: Sequence[Source], driver: Driver) -> None:
-        """Write and read nothing yet."""
+    def __init__(self, shaders: Sequence[Source], driver: Driver, more: Sequence[str] = ()) -> None:
+        """Write and read nothing yet; `more` names other kernels that belong to it."""
         digest = hashlib.blake2b(digest_size=16)
         places = (f"{name}={os.environ.get(name)}" for name in _PLACES)
-        words = driver.name, driver.version, driver.way.name, *places
+        words = driver.name, driver.version, driver.way.name, *places, *more
         for word in (*words, *(shader.text for shader in shaders)):
             digest.update(word.encode() + b"\0")
         self._path = cache_folder("kernels") / digest.hexdigest()
@@ -55,13 +57,18 @@ class Note:
     @property
     def is_there(self) -> bool:
         """Whether the driver had the kernel when it was needed last."""
-        return self._path.exists()
+        return self._path in _compiled or self._path.exists()
+
+    def compiled(self) -> None:
+        """Remember that another process has just compiled the kernel."""
+        _compiled.add(self._path)
 
     def learn(self, seconds: float) -> None:
         """Write or delete the note, by the processor seconds in which the kernel was ready.
 
         Failures are ignored: without a note, another process compiles before the window does.
         """
+        _compiled.discard(self._path)
         with suppress(OSError):
             if seconds < SLOW:
                 self._path.parent.mkdir(parents=True, exist_ok=True)

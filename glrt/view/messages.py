@@ -12,6 +12,9 @@ from glrt.view.state.session import Session
 SHOWN = 5.0  # seconds for which a finished action is shown
 
 
+Then = Callable[[], object]
+
+
 def nothing() -> None:
     """Do nothing."""
 

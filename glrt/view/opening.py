@@ -11,9 +11,6 @@ from glrt.core.text import escaped
 from glrt.image.sources import STANDARD_INPUT, STRICT, FileRules, load_recipe
 from glrt.packing.ready_tree import build_ahead
 from glrt.packing.scene_tree import SceneTree
-from glrt.plan.plan import prepare
-from glrt.rendering.pipelines import KernelOptions
-from glrt.rendering.plan_shaders import shaders_of
 from glrt.scene.loading.scene_files import files_of
 from glrt.scene.model_scene import is_model
 from glrt.scene.scene import Scene
@@ -22,7 +19,7 @@ from glrt.scene.scenefile.toml import read_scene
 from glrt.settings import RenderSettings
 from glrt.view.edits.edited_state import State, plain
 from glrt.view.kernel_notes import Driver, Note
-from glrt.view.scene_compiler import compile_for
+from glrt.view.scene_compiler import Part, compile_for, note_on
 
 Found = tuple[Scene, RenderSettings]
 Finish = Callable[[Scene, RenderSettings], Found]
@@ -135,14 +132,13 @@ class Opening:
         layering = "none" if driver.pipeline == "fragment" else State(scene, settings).layering
         heard = partial(self._hear, "compiling", 0.0)
         heard()
+        part: Part = scene, settings, layering, driver
         try:
-            plan = prepare(scene, settings, layering, apart="moved")
-            options = KernelOptions(driver.pipeline, "generic")
-            self.note = Note(shaders_of(plan, tree, options, driver.uniform_bytes), driver)
+            self.note = note_on(part, tree)
         except GlrtError:  # the window says what is wrong, as it does after an edit
             return
-        if not self.note.is_there:
-            compile_for((scene, settings, layering, driver), heard)
+        if not self.note.is_there and compile_for(part, heard):
+            self.note.compiled()
 
     def _hear(self, stage: str, share: float) -> None:
         if self._is_ended:

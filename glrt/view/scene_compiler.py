@@ -10,11 +10,14 @@ import sys
 from collections.abc import Callable
 from tempfile import TemporaryFile
 
-from glrt.plan.plan import Layering
+from glrt.packing.scene_tree import SceneTree
+from glrt.plan.plan import Layering, prepare
+from glrt.rendering.pipelines import KernelOptions
+from glrt.rendering.plan_shaders import shaders_of
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 from glrt.settings import Cost, Settings
-from glrt.view.kernel_notes import Driver
+from glrt.view.kernel_notes import Driver, Note
 from glrt.view.state.compile_ahead import cropped, same_driver
 from glrt.view.state.moving_picture import MovingPicture
 
@@ -22,6 +25,17 @@ PAUSE = 0.1  # seconds between two calls of `goes_on`
 _COMMAND = [sys.executable, "-m", "glrt.view.scene_compiler"]
 
 Part = tuple[Scene, Settings, Layering, Driver]
+
+
+def note_on(part: Part, tree: SceneTree | None) -> Note:
+    """Return the note on the kernels of a part; `tree` is the BVH of its scene.
+
+    Raises GlrtError where a renderer of the part does.
+    """
+    scene, settings, layering, driver = part
+    plan = prepare(scene, settings, layering, apart="moved")
+    options = KernelOptions(driver.pipeline, "generic")
+    return Note(shaders_of(plan, tree, options, driver.uniform_bytes), driver, settings.aov)
 
 
 def compile_for(part: Part, goes_on: Callable[[], object]) -> bool:

@@ -21,6 +21,7 @@ from glrt.settings import Denoise, Settings, settings_for
 from glrt.view.app import App
 from glrt.view.bars.framed import draw_picture
 from glrt.view.boxes.export_box import draw_export
+from glrt.view.edit_compiler import begin_for
 from glrt.view.event_wait import EventWait
 from glrt.view.file_watch import Watch
 from glrt.view.kernel_notes import driver_of
@@ -41,6 +42,7 @@ from glrt.view.recovery.lost_display import handle_lost_display
 from glrt.view.recovery.question import draw_recovery
 from glrt.view.start.screen import StartScreen
 from glrt.view.start.thumbnails import Thumbnails
+from glrt.view.state.awaited_kernel import AwaitedKernel
 from glrt.view.state.denoised_picture import DenoisedPicture
 from glrt.view.state.frame_budget import FrameBudget
 from glrt.view.state.idle_kernel import IdleKernel
@@ -181,6 +183,7 @@ class Window:
         self.app.leave = self._leave
         session.moving.use(Way(preferences.temporal, preferences.predictor))
         self.app.files.aside.driver = partial(driver_of, session)
+        session.ahead = AwaitedKernel(partial(begin_for, self.app.files.aside.driver))
         if self._later:
             self.app.files.aside.begin(*self._later)
             self.app.files.aside.refuse = self._refuse
@@ -225,7 +228,7 @@ class Window:
         self._poll(now)
         is_done = self.app.show.is_done(self.app.session) and self.app.pair.is_done
         is_done = is_done and not (self.app.paths.is_waiting or self.app.progress.is_looking)
-        is_done |= self.app.shows_start
+        is_done = (is_done and not self.app.timeline.is_playing) or self.app.shows_start
         return is_done and not self._interruption.signal and self._reports(now) == self._told
 
     def _reports(self, now: float) -> tuple[object, ...]:

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from bench.window_times import SIZES, Times, head, row, write_torus
+from bench.window_times import SIZES, STOPS, Times, head, row, stop_row, write_torus
 from glrt.image.sources import load
 
 
@@ -12,6 +12,13 @@ def test_a_row_names_scene_and_size_and_has_a_cell_for_each_column() -> None:
     *_, names, line = head(19.44)
     cells = row("scenes/models/cow.glb", SIZES[0], Times(1.204, 3.2, 0.456, 12.34))
     assert cells == "| cow.glb | 1240x800 | 1.20 s | 3.20 s | 0.46 s | 12.3 |"
+    assert names.count("|") == line.count("|") == cells.count("|")
+
+
+def test_a_row_of_stops_has_a_cell_for_each_column() -> None:
+    *_, names, line = head(1.0, STOPS)
+    cells = stop_row("scenes/models/cow.glb", SIZES[0], "save", 0.312, 0.104)
+    assert cells == "| cow.glb | 1240x800 | save | 0.31 s | 0.10 s |"
     assert names.count("|") == line.count("|") == cells.count("|")
 
 

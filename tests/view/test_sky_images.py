@@ -72,7 +72,7 @@ def test_an_exr_is_a_background_unless_it_is_a_picture_with_a_recipe(
     image = files.session.scene.background.image
     assert image
     assert image.file == "sky.exr"
-    files._mark_saved()
+    files._mark_saved(files.session.scene)
     monkeypatch.setattr(sky_images, "read_recipe", lambda _: None)
     files.ask_open("sky.exr")
     files.ask_open("scene.toml")

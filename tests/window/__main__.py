@@ -13,7 +13,7 @@ from imgui_bundle.immapp import testing
 
 from glrt.image.sources import load
 from glrt.settings import settings_for
-from glrt.view import event_wait, file_watch, window
+from glrt.view import edit_compiler, event_wait, file_watch, window
 from tests.window.hand import CHECKS, SMALL, Hand
 
 SCENE = "cornell"
@@ -24,6 +24,9 @@ SOON = 0.05  # seconds between looks at files and preferences, which checks wait
 def opened() -> window.Window:
     """The window that the checks are done in."""
     file_watch.INTERVAL = window.KEEP_EVERY = SOON
+    vars(edit_compiler)["compile_for"] = lambda *_: (
+        False
+    )  # another process would take seconds each time
     event_wait.LONGEST = 0.0  # what the hand does is no event of the window
     scene = load(SCENE)
     result = window.Window(SCENE, scene, settings_for(scene.render, **SMALL))

@@ -29,6 +29,7 @@ def a_picture_is_saved_with_its_recipe_and_opened_again(hand: Hand) -> None:
         hand.until(lambda: hand.session.is_done)
         hand.there(partial(setattr, app.files, "picture_path", str(file)))
         hand.there(app.files.save_picture)
+        hand.until(lambda: not app.files.writer)
         hand.begin()
         hand.there(partial(app.files.open, str(file)))
         hand.settle()
@@ -219,10 +220,12 @@ def edits_are_not_lost_unasked(hand: Hand) -> None:
 def pictures_get_numbers_and_replace_nothing_unasked(hand: Hand) -> None:
     files, shot = hand.window.app.files, Path.cwd() / "numbered.png"
     hand.there(partial(files.save_picture, str(shot)))
+    hand.until(lambda: not files.writer)
     assert files.messages.last == f"Saved numbered.png in {Path.cwd()}"
     before = shot.read_bytes()
     for number in (2, 3):
         press(hand, imgui.Key.e, CTRL)
+        hand.until(lambda: not files.writer)
         assert (Path.cwd() / f"numbered-{number}.png").exists()
     hand.there(partial(files.ask_save_picture, str(shot)))
     answer(hand, "cancel")
@@ -230,6 +233,7 @@ def pictures_get_numbers_and_replace_nothing_unasked(hand: Hand) -> None:
     hand.until(lambda: hand.session.samples > 20)
     hand.there(partial(files.ask_save_picture, str(shot)))
     answer(hand, "replace")
+    hand.until(lambda: not files.writer)
     assert shot.read_bytes() != before
 
 
@@ -257,4 +261,5 @@ def what_was_opened_last_is_at_hand(hand: Hand) -> None:
 def what_cannot_be_saved_is_reported(hand: Hand) -> None:
     hand.there(partial(setattr, hand.window.app.files, "picture_path", "/nowhere/picture.png"))
     hand.there(hand.window.app.files.save_picture)
+    hand.until(lambda: not hand.window.app.files.writer)
     assert "/nowhere" in hand.session.problem

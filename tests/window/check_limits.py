@@ -14,6 +14,7 @@ from glrt.scene.scene import Scene, with_lights
 from glrt.scene.values import LARGEST, SMALLEST
 from glrt.view.controls import replaced
 from glrt.view.edits.scene_edits import with_object
+from glrt.view.files import Files
 from glrt.view.viewport import orbit
 from tests.support.builders import lamp, plane, scene_of
 from tests.window.gestures import ball, drag, reopen
@@ -171,6 +172,12 @@ def handles_that_scale_an_object_to_nothing_report_it(hand: Hand) -> None:
     hand.window.app.selected = None
 
 
+def saved(files: Files, path: str) -> None:
+    """Save the picture, and wait for the end."""
+    files.save_picture(path)
+    files.finish_picture()
+
+
 @check
 def what_is_no_scene_and_what_is_no_file_is_reported(hand: Hand) -> None:
     app, before = hand.window.app, hand.session.state
@@ -179,7 +186,7 @@ def what_is_no_scene_and_what_is_no_file_is_reported(hand: Hand) -> None:
     for source in (".", "/", str(noise), "/dev/null", "x" * 5000, "x\0y", "~", "..", " "):
         told(hand, partial(app.files.open, source))
     for path in (".", "/", "x" * 5000 + ".png", "picture", "/dev/full", "x.png/y.png", " "):
-        told(hand, partial(app.files.save_picture, path))
+        told(hand, partial(saved, app.files, path))
     for path in (".", "/", "x" * 5000 + ".toml", "noise.png/y.toml"):
         told(hand, partial(app.files.save_scene, path))
     for text in (
@@ -206,7 +213,7 @@ def a_name_that_is_no_text_is_shown_and_kept(hand: Hand) -> None:
     hand.there(partial(app.files.open, str(file)))
     goes_on(hand)
     assert app.files.scene_path == str(file)
-    hand.there(partial(app.files.save_picture, str(file.with_suffix(".png"))))
+    hand.there(partial(saved, app.files, str(file.with_suffix(".png"))))
     hand.there(app.files.save_scene)
     goes_on(hand)
     assert not hand.session.problem

@@ -109,7 +109,7 @@ class Hand:
             self.session.rest = None  # no other process, but where a check wants it
             app.preferences = replaced(self._preferences, temporal="reset")  # the film alone
             self.session.edit(self.session.opened.scene, **dict(self.session.opened.settings))
-            app.files._mark_saved()
+            app.files._mark_saved(self.session.scene)
             app.files.dialogs.close()
             app.messages.question, app.messages.told = None, -math.inf
             app.paths.forget()

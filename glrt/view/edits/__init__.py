@@ -4,6 +4,7 @@ Modules, each importing only what stands above it:
 
 - scene_edits: objects and materials added, copied, renamed, removed
 - ready_materials: common metals, glasses, plastics and paints
+- keyframes: frames and keys of an animation
 - media_edits: media added, chosen and changed
 - file_camera: cameras of glTF files, read again and saved
 - sky_images: images that become the background

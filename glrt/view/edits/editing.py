@@ -125,6 +125,10 @@ class Editing:
         self.opened = opened
         self._take(replace(opened, by_length=self.by_length))
 
+    def show(self, scene: Scene) -> None:
+        """Show another moment of the scene: no edit, and no step of undo."""
+        self.state = replace(self.state, scene=scene)
+
     def lock(self, number: int, wanted: bool) -> None:
         """Lock an object against edits, or unlock it; this is a step of undo."""
         rest = self.state.locked - {number}

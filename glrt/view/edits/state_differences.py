@@ -34,7 +34,7 @@ def _of_scene(before: Scene, after: Scene) -> list[str]:
         ("light", before.light_groups, after.light_groups),
     ):
         told += [f"{kind} {name}" for name in new if name in old and old[name] != new[name]]
-    for part in ("camera", "background", "sun"):
+    for part in ("camera", "background", "sun", "animation"):
         if getattr(before, part) != getattr(after, part):
             told.append(part)
     return told

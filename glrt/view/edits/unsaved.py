@@ -5,7 +5,9 @@ from glrt.scene.scene import Scene
 from glrt.scene.scenefile.toml_writer import scene_with
 from glrt.settings import Settings
 
-EDITED = ("objects", "materials", "media", "medium", "lights", "background", "sun")  # to be saved
+EDITED = (  # to be saved
+    *("objects", "materials", "media", "medium", "lights", "background", "sun", "animation"),
+)
 
 
 @kept_for_the_same

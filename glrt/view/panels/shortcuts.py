@@ -1,10 +1,12 @@
 """Commands and camera moves by keys, also in frames slower than a key press."""
 
+import time
 from collections.abc import Callable
 
 from imgui_bundle import imgui
 
 from glrt.view.app import App
+from glrt.view.edits.keyframes import with_key
 from glrt.view.outliner.listing import OUTLINER
 from glrt.view.panels.key_table import is_choosing, key_named
 from glrt.view.panels.navigation import leaves, navigate
@@ -46,6 +48,9 @@ COMMANDS: dict[Action, Callable[[App], object]] = {  # command of each action
     "save": lambda app: app.files.save_picture(),
     "export": lambda app: app.exports.toggle(),
     "copy_picture": lambda app: app.exports.copy_picture(),
+    "timeline": lambda app: app.timeline.toggle(),
+    "play": lambda app: app.timeline.play(time.perf_counter()),
+    "set_key": lambda app: _set_key(app),
     "quit": lambda app: app.exports.unless_under_way(lambda: app.files.close(app.leave)),
 }
 ANYWHERE: tuple[Action, ...] = (  # also on the start screen, which hides what others change
@@ -91,6 +96,16 @@ def draw_keys(app: App) -> None:
     _views(app)
     if not held and not imgui.is_any_item_active() and not _may_click_again():
         app.session.history.settle()
+
+
+def _set_key(app: App) -> None:
+    """Set a key for the value chosen in the timeline, at the frame that is shown."""
+    line = app.timeline
+    if line.chosen:
+        keys, frame, selected = line.chosen, line.frame, app.selected
+        app.edit_scene("", lambda scene: with_key(scene, keys, frame, selected))
+    else:
+        app.messages.report("Choose a value in the timeline below the picture: it gets the key")
 
 
 def _views(app: App) -> None:

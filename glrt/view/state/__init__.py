@@ -13,6 +13,7 @@ Modules, each importing only what stands above it:
 - frame_budget: render time per frame
 - layer_limits: whether a driver has room for layers
 - compile_ahead: a kernel compiled by another process
+- awaited_kernel: an edit that waits for its kernel
 - idle_kernel: when the faster kernel takes over
 - zoom: visible part of the picture
 - histogram: histogram of brightness
@@ -21,6 +22,7 @@ Modules, each importing only what stands above it:
 - shown_picture: whether the picture is whole or coarse
 - path_explorer: paths of a pixel
 - session: scene, settings and their renderer
+- timeline: frame of the animation that is shown
 - denoise_process: a denoiser in a process of its own
 - denoised_picture: denoised picture while rendering goes on
 - costs: current cost of each edit

@@ -11,7 +11,7 @@ Action = (
     | Literal["fit", "one_to_one", "inspect", "paths", "panel", "keys", "palette", "find_object"]
     | Literal["brighter", "darker", "picture_alone", "full_screen", "start"]
     | Literal["duplicate", "delete", "open", "save_scene", "save_scene_as", "save", "quit"]
-    | Literal["export", "copy_picture"]
+    | Literal["export", "copy_picture", "timeline", "play", "set_key"]
 )
 MOST_VIEWS = 9  # that are kept, each by a digit: Ctrl keeps it, Alt goes back to it
 Bindings = dict[Action, tuple[str, ...]]
@@ -50,6 +50,9 @@ DEFAULTS: Bindings = {
     "save": ("ctrl+e",),
     "export": ("ctrl+shift+e",),
     "copy_picture": ("ctrl+shift+c",),
+    "timeline": ("t",),
+    "play": ("shift+space",),
+    "set_key": ("k",),
     "quit": ("ctrl+q",),
 }
 MEANING: dict[Action, str] = {
@@ -86,6 +89,9 @@ MEANING: dict[Action, str] = {
     "save": "save the picture",
     "export": "export a picture of any size, or a film",
     "copy_picture": "copy the picture to the clipboard",
+    "timeline": "show the timeline of a scene without animation",
+    "play": "play the animation, stop it",
+    "set_key": "set a key of the value chosen in the timeline",
     "quit": "close the window",
 }
 

@@ -11,14 +11,13 @@ from typing import Any
 from glrt.core.errors import GlrtError, RenderError, UsageError
 from glrt.gpu.context import Context, Pipeline
 from glrt.image.image import Image
-from glrt.plan.methods import has_ambient
-from glrt.plan.plan import Layering, Weights
 from glrt.rendering.pipelines import resolve
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.screen.surface_view import NEEDED
 from glrt.scene.scene import Scene
-from glrt.settings import OF_PATHS, TERMS, Aov, Cost, Settings, settings_for
+from glrt.settings import OF_PATHS, Aov, Cost, Settings, settings_for
 from glrt.view.edits.edited_state import State
+from glrt.view.state.awaited_kernel import AwaitedKernel
 from glrt.view.state.idle_kernel import IdleKernel
 from glrt.view.state.layer_limits import LayerLimits
 from glrt.view.state.live_probes import kept_by_probes
@@ -46,6 +45,7 @@ class Session(ShownPicture):
     ) -> None:
         """Compile nothing yet; the first frames announce that a kernel will be compiled."""
         self.rest = rest
+        self.ahead: AwaitedKernel | None = None  # compiles what edits need, in another process
         self.pipeline = resolve(pipeline, context)
         super().__init__(State(scene, settings_for(settings, crop=None, adaptive="off")))
         self.renderer: Renderer | None = None
@@ -71,31 +71,6 @@ class Session(ShownPicture):
     def known_from(self) -> int:
         """Number of samples from which on an error is known: those of two observations."""
         return (self.renderer or self).settings.least_known
-
-    @property
-    def layering(self) -> Layering:
-        """Content of the film's layers; "none" for fragment shaders, or if there is no room."""
-        return "none" if self.pipeline == "fragment" or self.lacks_room else self.state.layering
-
-    @property
-    def weighed(self) -> Layering:
-        """The layering whose weights show an edit; "none" with terms, or light of no group."""
-        has_terms = bool({*self.aovs, *self.settings.aov} & {*TERMS})
-        is_mixed = self.layering == "groups" and has_ambient(self.settings)
-        return "none" if has_terms or is_mixed else self.layering
-
-    @property
-    def lacks_room(self) -> bool:
-        """Whether the film is too large for layers: then edits of lamps and bounces restart."""
-        return not self.room.fits(self.scene, self.settings, self.state.layering)
-
-    @property
-    def weights(self) -> Weights:
-        """Weights of the film's layers on the screen: as edited, or of one path length alone."""
-        assert self.renderer
-        plan = self.renderer.plan
-        is_alone = self.alone is not None and plan.layering == "lengths" and plan.layers
-        return plan.alone(self.alone or 0) if is_alone else plan.weights
 
     @property
     def is_behind(self) -> bool:
@@ -165,8 +140,9 @@ class Session(ShownPicture):
 
     def release(self) -> None:
         """Release all OpenGL objects."""
-        if self.rest:
-            self.rest.end()
+        for process in (self.rest, self.ahead):
+            if process:
+                process.end()
         self.moving.release()
         if self.renderer:
             self.renderer.release()
@@ -188,6 +164,9 @@ class Session(ShownPicture):
             self.busy = "Compiling a kernel for this scene"
             self._announced += 1
             return False
+        if self._waits_for_kernel(cost):
+            self.busy = "Compiling a kernel for this scene"
+            return False
         self.busy, self._announced = "", 0
         if cost is Cost.RESTART:
             pixels = self.settings.width * self.settings.height
@@ -201,6 +180,8 @@ class Session(ShownPicture):
             try:
                 self._apply()
                 self.taken = time.process_time() - used
+                if self.ahead:
+                    self.ahead.took(self.taken)
                 self._full_size = self.settings.size
                 if cost is Cost.RESTART:
                     self._preview.edited(self._clock() - start)
@@ -210,6 +191,18 @@ class Session(ShownPicture):
         elif self.samples and not (self.paused or self.waits) and self._hysteresis is not None:
             self._go_on()
         return self.renderer is not None
+
+    def _waits_for_kernel(self, cost: Cost | None) -> bool:
+        """Whether the edit waits for a kernel that another process compiles."""
+        if not self.ahead:
+            return False
+        renderer = self.renderer
+        has_aovs = renderer and {*self.aovs} <= {*renderer.settings.aov}
+        if cost is not Cost.RECOMPILE and has_aovs:
+            self.ahead.end()
+            return False
+        before = renderer.device_scene.tree if renderer else None
+        return self.ahead.holds(self._wanted(), self.layering, before)
 
     @property
     def _upsamples(self) -> bool:

@@ -1,7 +1,12 @@
 """The kind of picture that a session has: whole, coarse, or temporary."""
 
+from glrt.plan.methods import has_ambient
+from glrt.plan.plan import Layering, Weights
+from glrt.rendering.passes import Resolved
 from glrt.rendering.renderer import Renderer
+from glrt.settings import TERMS, Aov
 from glrt.view.edits.editing import Editing
+from glrt.view.state.layer_limits import LayerLimits
 from glrt.view.state.moving_picture import MovingPicture
 
 
@@ -10,6 +15,10 @@ class ShownPicture(Editing):
 
     renderer: Renderer | None
     moving: MovingPicture
+    pipeline: Resolved
+    alone: int | None  # the only path length that is shown; None: all
+    aovs: tuple[Aov, ...]  # that the view needs
+    room: LayerLimits
 
     @property
     def samples(self) -> int:
@@ -44,3 +53,28 @@ class ShownPicture(Editing):
             return False
         has_aovs = not self.renderer.settings.aov or self.renderer.shown[1] > 0
         return has_aovs or not self.is_reduced
+
+    @property
+    def layering(self) -> Layering:
+        """Content of the film's layers; "none" for fragment shaders, or if there is no room."""
+        return "none" if self.pipeline == "fragment" or self.lacks_room else self.state.layering
+
+    @property
+    def weighed(self) -> Layering:
+        """The layering whose weights show an edit; "none" with terms, or light of no group."""
+        has_terms = bool({*self.aovs, *self.settings.aov} & {*TERMS})
+        is_mixed = self.layering == "groups" and has_ambient(self.settings)
+        return "none" if has_terms or is_mixed else self.layering
+
+    @property
+    def lacks_room(self) -> bool:
+        """Whether the film is too large for layers: then edits of lamps and bounces restart."""
+        return not self.room.fits(self.scene, self.settings, self.state.layering)
+
+    @property
+    def weights(self) -> Weights:
+        """Weights of the film's layers on the screen: as edited, or of one path length alone."""
+        assert self.renderer
+        plan = self.renderer.plan
+        is_alone = self.alone is not None and plan.layering == "lengths" and plan.layers
+        return plan.alone(self.alone or 0) if is_alone else plan.weights
