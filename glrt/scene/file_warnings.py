@@ -1,13 +1,16 @@
-"""Warnings about files that a scene names: what is left out of them, or made smaller."""
+"""Warnings about files that a scene names: what is left out, made smaller, or wrong in glass."""
 
 from collections.abc import Iterator
 
-from glrt.core.text import counted
+from glrt.core.text import counted, quoted
 from glrt.scene.images.texture_sizes import MOST_TEXELS, sizes_of
 from glrt.scene.materials.base import Opaque
+from glrt.scene.materials.kinds import glass_of
 from glrt.scene.scene import Scene
 from glrt.scene.shapes.mesh import Mesh
 from glrt.scene.summary import few
+
+LEAST_ROUNDED = 0.1  # share of a mesh: less may be a few creases of a scanned thing
 
 
 def repeated(scene: Scene) -> Iterator[str]:
@@ -27,6 +30,22 @@ def unread(scene: Scene) -> Iterator[str]:
         yield (
             f"{where}: of {file.file} is left out: {few(file.unread)}. docs/how-to/models.md says "
             "what is read; with a `material` of the scene its object has another look."
+        )
+
+
+def rounded_glass(scene: Scene) -> Iterator[str]:
+    """Yield a warning for each mesh of glass whose sharp edges are rounded off by its normals."""
+    for index, thing in enumerate(scene.objects):
+        if not isinstance(thing, Mesh) or thing.hidden or thing.smooth is not True:
+            continue
+        glass = glass_of(scene.materials[thing.material])
+        if glass is None or glass.thin or (share := thing.triangles.rounded) < LEAST_ROUNDED:
+            continue
+        yield (
+            f"objects[{index}]{f' {quoted(thing.name)}' if thing.name else ''}: "
+            f"{thing.file.file} has no normals, so they are means over edges that are sharp, on "
+            f"{100 * share:.0f} % of its area. Glass refracts by them, as if flat faces were "
+            'rounded. Write smooth = "auto" to keep edges sharp, or smooth = false for flat facets.'
         )
 
 

@@ -107,6 +107,19 @@ def has_ranks(scene: SceneFields) -> bool:
     )
 
 
+def idle_priorities(scene: SceneFields) -> list[int]:
+    """Return the numbers of visible objects whose own priority changes nothing.
+
+    Without media, that is each. With media, it is those that no other volume overlaps; an object of
+    an animated scene may come to overlap another one, so none is returned there.
+    """
+    ranked = [n for n, it in enumerate(scene.objects) if it.priority is not None and not it.hidden]
+    if not has_ranks(scene):
+        return ranked
+    related = {n for _, pair in _related(scene.objects, scene.materials) for n in pair}
+    return [] if scene.animation else [n for n in ranked if n not in related]
+
+
 def _priority(scene: SceneFields, thing: Shape) -> int | None:
     """Return the priority of the volume of an object, or of its glass; None if it has none."""
     material = scene.materials.get(thing.material)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from glrt.core.text import number, quoted
 from glrt.scene.coincidence import coincidence_of
 from glrt.scene.crossing_glass import MOST_COMPARED, Relation, relations
-from glrt.scene.file_warnings import large_images, repeated, unread
+from glrt.scene.file_warnings import large_images, repeated, rounded_glass, unread
 from glrt.scene.materials.dielectric import Dielectric
 from glrt.scene.materials.kinds import glass_of
 from glrt.scene.scene import Scene
@@ -22,7 +22,7 @@ from glrt.scene.shapes.plane import Plane
 from glrt.scene.shapes.sphere import Sphere
 from glrt.scene.summary import few
 from glrt.scene.twins import twins
-from glrt.scene.volumes import has_ranks
+from glrt.scene.volumes import has_ranks, idle_priorities
 from glrt.settings import Settings
 
 ROUNDING = 2.0**-24  # relative rounding error of a float32
@@ -40,6 +40,8 @@ def cautions(scene: Scene, settings: Settings) -> list[str]:
         _narrow_pixels(scene, settings),
         _huge_ball(scene),
         *_glass(scene),
+        *rounded_glass(scene),
+        _idle_priorities(scene),
         _walled_in(scene),
         _dark(scene),
         _endless(scene),
@@ -152,6 +154,23 @@ def _glass_of(scene: Scene, index: int) -> Dielectric:
     glass = glass_of(scene.materials[scene.objects[index].material])
     assert glass
     return glass
+
+
+def _idle_priorities(scene: Scene) -> str:
+    """Warn of priorities of objects that change nothing."""
+    idle = idle_priorities(scene)
+    if not idle:
+        return ""
+    names = few(f"{_name(scene, index)}" for index in idle)
+    if has_ranks(scene):
+        return (
+            f"{names}: `priority` changes nothing where no other volume overlaps. Leave it out, or "
+            "let the objects overlap."
+        )
+    return (
+        f"{names}: `priority` of objects counts in scenes with media alone, and this one uses "
+        "none. Give the materials of glass a priority in place of it, or leave it out."
+    )
 
 
 def _walled_in(scene: Scene) -> str:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from glrt.core.text import counted, unknown
 from glrt.scene.meshes.creases import by_angle, by_groups
 from glrt.scene.meshes.repeated_triangles import repeated
+from glrt.scene.meshes.rounded_edges import rounded_share
 from glrt.scene.meshes.vertex_means import mean_normals, mean_tangents, places
 
 Floats = NDArray[np.float64]
@@ -92,6 +93,16 @@ class TriangleMesh:
         length = np.linalg.norm(given, axis=1, keepdims=True)
         unit: Floats = np.divide(given, length, out=np.zeros_like(given), where=length > 0)
         return unit
+
+    @cached_property
+    def rounded(self) -> float:
+        """The share of its area on which interpolated normals round sharp edges off, 0 to 1.
+
+        0 for a file with normals of its own: it means them.
+        """
+        if self.normals is not None and self.normals.any():
+            return 0.0
+        return rounded_share(self.vertices, self.faces, self.shading_normals)
 
     @cached_property
     def shading_tangents(self) -> Floats:
