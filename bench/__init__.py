@@ -30,6 +30,7 @@ Programs, `python -m bench.NAME`; `--help` lists their options:
 - terms: terms of light by several methods, and their cost
 - effects: light and rays of each effect of method hybrid
 - adaptive: the error of pictures whose pixels have counts of their own
+- shared: what random numbers that pixels share gain, and the error that such pictures estimate
 - steps: the bias of ray marching by the length of its steps
 - probe_shares: cost and lag of live probes that are updated in turn
 - window_tour: frame times of the window, driven by a script
