@@ -11,7 +11,7 @@ from glrt.gpu.context import Context
 from glrt.scene.scene import Scene
 from tests.conftest import CallGlsl
 from tests.shaders.test_dielectric import fresnel64
-from tests.support.builders import MATTE, glass, lamp, plane, scene_of, sphere
+from tests.support.builders import MATTE, glass, lamp, plane, quad, scene_of, sphere
 from tests.support.numerics import Array, wo_at
 from tests.support.renders import (
     METHODS,
@@ -37,9 +37,11 @@ def indices(ior: float, dispersion: float) -> Array:
 
 
 def ball(**more: Any) -> Scene:
-    """A ball of glass above a floor, under a gradient."""
+    """A ball of glass above a floor and before the edge of a lamp, under a gradient."""
     parts = [sphere([0, 0, 0], 1, "glass"), plane([0, -1, 0], [0, 1, 0], "floor")]
-    return scene_of(parts, {"glass": glass(**more), "floor": MATTE}, CAMERA, background=SKY)
+    parts += [quad([0.4, -1, -3], [3, 0, 0], [0, 3, 0], "lamp")]
+    materials = {"glass": glass(**more), "floor": MATTE, "lamp": lamp(4.0)}
+    return scene_of(parts, materials, CAMERA, background=SKY)
 
 
 def test_the_indices_of_the_lines_have_the_abbe_number() -> None:
@@ -74,6 +76,7 @@ def test_each_color_gets_its_share_and_its_direction(call_glsl: CallGlsl) -> Non
     for n, (own_lit, is_outside, cos_i) in enumerate(cases):
         rows = slice(STEPS * n, STEPS * (n + 1))
         weight, scale = weights[rows, :3] * np.array(own_lit), weights[rows, 3]
+        assert (weight.sum(axis=1) > 0).all()  # no sample without light
         crosses = goes[rows, 3] > 0
         etas = 1 / iors if is_outside else iors
         share = fresnel64(np.full(3, cos_i), etas) * own_lit
