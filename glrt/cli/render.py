@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
+from pathlib import Path
 
 from glrt.cli.autosave import Autosave
 from glrt.cli.caustics import with_caustics
@@ -36,6 +37,8 @@ from glrt.process.command import fail, since_start
 from glrt.rendering.render_parts import render_parts
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.stopping import Interruption, Limits, render_to_limit
+from glrt.scene.model_scene import is_model
+from glrt.scene.studio import studio_note
 
 DESCRIPTION = "Render a scene to files, without a window."
 EPILOG = (
@@ -129,6 +132,9 @@ def _run(arguments: argparse.Namespace) -> int:
         chosen = choose(arguments, wanted.scene, wanted.settings, wanted.limits)
         wanted = replace(wanted, **chosen._asdict())
     wanted = with_caustics(arguments, wanted)
+    is_own = arguments.scene is not None and is_model(Path(arguments.scene))
+    if is_own and not arguments.quiet and (note := studio_note(wanted.scene)):
+        print(note, file=sys.stderr)
     warn(wanted.scene, wanted.settings, settings_given(arguments), arguments.quiet)
     with Interruption().watched() as interruption:
         return _render(arguments, wanted, interruption, load)

@@ -18,7 +18,7 @@ from glrt.scene.loading.scene_files import with_files
 from glrt.scene.materials.lambertian import Lambertian
 from glrt.scene.meshes.triangle_meshes import Poses, TriangleMesh
 from glrt.scene.model_files.gltf.cameras import FileCamera, camera_of, left_out
-from glrt.scene.model_files.gltf.lights import lights_of
+from glrt.scene.model_files.gltf.lights import is_lit, lights_of
 from glrt.scene.model_files.mesh_formats import FORMATS, GLTF
 from glrt.scene.scene import Scene
 from glrt.scene.schema.validation import validated
@@ -110,7 +110,7 @@ def _add_camera(tables: Table, name: str, camera: FileCamera) -> None:
 def _add_stage(
     tables: Table, asset: Asset, reader: AssetReader, mesh: TriangleMesh, source: str
 ) -> bool:
-    """Add cameras and lights of a glTF file; return whether it has lights."""
+    """Add cameras and lights of a glTF file; return whether it has lights, or says so."""
     try:
         document = Beside(asset, reader, source).document()
         lights = lights_of(document, _ball(mesh)[1])
@@ -125,7 +125,7 @@ def _add_stage(
     tables["objects"] += lights["objects"]
     if suns:
         tables["sun"] = suns[0]
-    return bool(lights["objects"] or suns)
+    return bool(lights["objects"] or suns) or is_lit(document)
 
 
 def _ball(mesh: TriangleMesh) -> tuple[Any, float]:
