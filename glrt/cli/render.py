@@ -21,6 +21,7 @@ from glrt.cli.options import (
     add_summary,
     error_limit,
     is_automatic,
+    once,
     settings_given,
 )
 from glrt.cli.reports.render_report import Done, report
@@ -118,6 +119,7 @@ def _run(arguments: argparse.Namespace) -> int:
     scene, settings = frame_of(wanted.scene, wanted.settings, arguments.frame)
     wanted = replace(wanted, scene=scene, settings=settings)
     load = time.perf_counter() - start
+    arguments.outputs = once(arguments.outputs)
     for output in arguments.outputs:
         check_writable(output)
         if arguments.scene is not None:
