@@ -25,6 +25,8 @@ def with_caustics(arguments: argparse.Namespace, wanted: Order) -> Order:
 
     Rendering a picture again keeps its own choice. The finding is reported on stderr.
     """
+    if wanted.begun is not None and not arguments.quiet and (text := kept(arguments, wanted)):
+        print(text, file=sys.stderr, flush=True)
     if not _is_open(arguments, wanted):
         return wanted
     from glrt.analysis.method_choice.caustics import CHOICES
@@ -37,6 +39,20 @@ def with_caustics(arguments: argparse.Namespace, wanted: Order) -> Order:
         print(told(found), file=sys.stderr, flush=True)
     decisions = {**wanted.decisions, **found.decisions(given)}
     return replace(wanted, settings=found.settings, decisions=decisions)
+
+
+def kept(arguments: argparse.Namespace, wanted: Order) -> str:
+    """Return a sentence if a picture goes on with a choice that one render might not take."""
+    if getattr(arguments, "caustics", AUTO) != AUTO or wanted.begun is None:
+        return ""
+    from glrt.analysis.method_choice.caustics import may_differ
+
+    if not may_differ(wanted.scene, wanted.settings, wanted.begun.samples):
+        return ""
+    return (
+        f"Rendering with --caustics {wanted.settings.caustics}, as the picture began. One render "
+        f"of {wanted.settings.samples} samples may choose otherwise, and have other bits."
+    )
 
 
 def _is_open(arguments: argparse.Namespace, wanted: Order) -> bool:

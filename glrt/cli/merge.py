@@ -4,7 +4,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from glrt.cli.options import add_outputs, add_summary
+from glrt.cli.options import add_outputs, add_summary, once
 from glrt.cli.reports.warnings import doubt, too_dark
 from glrt.core.errors import UsageError
 from glrt.core.text import counted
@@ -37,6 +37,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Write the merged picture and return 0; UsageError if the parts cannot be merged."""
+    arguments.outputs = once(arguments.outputs)
     for output in arguments.outputs:
         check_writable(output)
     recipes = _recipes(arguments.parts)

@@ -1,7 +1,9 @@
 """The parser of commands, and options generated from the models of settings."""
 
 import argparse
+import os
 import re
+from collections.abc import Sequence
 from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn, get_args
@@ -70,6 +72,14 @@ def add_outputs(parser: argparse.ArgumentParser) -> None:
         required=True,
         help="output: .exr (radiance and its standard error), .png or .npy; may be repeated",
     )
+
+
+def once(outputs: Sequence[str]) -> list[str]:
+    """Return the names of files without those that lead to the file of an earlier one."""
+    found = dict[str, str]()
+    for name in outputs:
+        found.setdefault(os.path.realpath(name) if name else "", name)
+    return [*found.values()]
 
 
 def add_summary(parser: argparse.ArgumentParser, unsaid: str) -> None:

@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
+from pathlib import Path
 
 from glrt.cli.autosave import Autosave
 from glrt.cli.caustics import with_caustics
@@ -21,6 +22,7 @@ from glrt.cli.options import (
     add_summary,
     error_limit,
     is_automatic,
+    once,
     settings_given,
 )
 from glrt.cli.reports.cluster_report import crew_of
@@ -39,6 +41,8 @@ from glrt.process.command import fail, since_start
 from glrt.rendering.render_parts import render_parts
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.stopping import Interruption, Limits, render_to_limit
+from glrt.scene.model_scene import is_model
+from glrt.scene.studio import studio_note
 
 DESCRIPTION = "Render a scene to files, without a window."
 EPILOG = (
@@ -119,6 +123,7 @@ def _run(arguments: argparse.Namespace) -> int:
     scene, settings = frame_of(wanted.scene, wanted.settings, arguments.frame)
     wanted = replace(wanted, scene=scene, settings=settings)
     load = time.perf_counter() - start
+    arguments.outputs = once(arguments.outputs)
     for output in arguments.outputs:
         check_writable(output)
         if arguments.scene is not None:
@@ -140,6 +145,9 @@ def _run(arguments: argparse.Namespace) -> int:
             "--caustics auto chose particles, and each worker of --cluster would follow all of "
             "them again. Give --caustics off, or leave out --cluster."
         )
+    is_own = arguments.scene is not None and is_model(Path(arguments.scene))
+    if is_own and not arguments.quiet and (note := studio_note(wanted.scene)):
+        print(note, file=sys.stderr)
     warn(wanted.scene, wanted.settings, settings_given(arguments), arguments.quiet)
     make = _render_in_bands if is_in_bands(arguments) else _render
     with Interruption().watched() as interruption:

@@ -56,6 +56,7 @@ def _largest_around(values: Array) -> Array:
 
 
 ROUNDING = 1e-5  # of the radiance: two equal pictures of different programs may differ by that
+CALM = 1 / 30  # of the usual relative noise: below it, the camera sees a lamp or the sky itself
 FEWEST_PIXELS = 16  # that must carry the noise of a place before its own variance may judge it
 
 
@@ -183,11 +184,15 @@ def even_weights(pair: Pair) -> Array:
     """Weights of pixels that show best if one picture is brighter by a factor, (H, W, 3).
 
     They use only what stays the same however samples are dealt out: weights from the noise of one
-    picture would favour blocks that are dark by chance.
+    picture would favour blocks that are dark by chance. Blocks with a relative noise below CALM of
+    the usual one have no weight: all of it would be theirs, and the factor that of lamps in view.
     """
     variance = blocks(pair.shuffled_variance)
     level = np.maximum(blocks(pair.level), 0)
     weights = ratio_of(level, variance + np.square(ROUNDING * level))
+    noise = ratio_of(np.sqrt(variance), level)
+    usual = np.quantile(noise[noise > 0], 0.9) if noise.any() else 0.0
+    weights = np.where(noise >= CALM * usual, weights, 0.0)
     return spread_out(weights / np.maximum(weights.max(axis=(0, 1)), 1e-300), pair.image.shape)
 
 

@@ -6,14 +6,13 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from glrt.comparison.noise import Pair, Sums
+from glrt.comparison.noise import CALM, Pair, Sums
 from glrt.comparison.regions import Array, ratio_of
 
 Flags = NDArray[np.bool_]
 
 POWER = 0.95  # a change "would have been found" if it is found so often
 LEAST_LIGHT = 0.01  # of all light: less of it is not representative
-CALM = 1 / 30  # of the usual relative noise: below it, the camera sees a lamp or the sky itself
 
 
 @dataclass(frozen=True)

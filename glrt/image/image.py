@@ -232,6 +232,8 @@ def read_recipe(path: str | Path) -> Recipe:
 
 def check_writable(path: str | Path) -> None:
     """Raise `UsageError` if `Image.save` could not write there; leaves nothing behind."""
+    if not str(path):
+        raise UsageError("-o has an empty name: name a file that ends in .exr, .png or .npy.")
     _suffix_to_write(Path(path))
     files.check_writable(Path(path))
 

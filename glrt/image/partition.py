@@ -84,4 +84,7 @@ def parse_part(text: str) -> tuple[int, int]:
     match = re.fullmatch(r"(\d{1,7})/(\d{1,7})", text)
     if not match:
         raise ValueError(f"{text!r} is not K/N, such as 3/7")
-    return int(match[1]), int(match[2])
+    number, count = int(match[1]), int(match[2])
+    if not count:
+        raise ValueError(f"{text!r} has no parts: N must be 1 or more, as in 1/2")
+    return number, count

@@ -18,7 +18,7 @@ from glrt.scene.loading.scene_files import with_files
 from glrt.scene.materials.lambertian import Lambertian
 from glrt.scene.meshes.triangle_meshes import Poses, TriangleMesh
 from glrt.scene.model_files.gltf.cameras import FileCamera, camera_of, left_out
-from glrt.scene.model_files.gltf.lights import lights_of
+from glrt.scene.model_files.gltf.lights import is_lit, lights_of
 from glrt.scene.model_files.mesh_formats import AS_GLTF, FORMATS
 from glrt.scene.model_files.usd.document import UsdDocument
 from glrt.scene.scene import Scene
@@ -111,7 +111,7 @@ def _add_camera(tables: Table, name: str, camera: FileCamera) -> None:
 def _add_stage(
     tables: Table, asset: Asset, reader: AssetReader, mesh: TriangleMesh, source: str
 ) -> bool:
-    """Add cameras and lights of a glTF or USD file; return whether it has lights."""
+    """Add cameras and lights of a glTF or USD file; return whether it has lights, or says so."""
     try:
         document = Beside(asset, reader, source).document()
         lights = (
@@ -134,7 +134,8 @@ def _add_stage(
         tables["sun"] = suns[0]
     if "background" in lights:
         tables["background"] = lights["background"]
-    return bool(lights["objects"] or suns or "background" in lights)
+    has_lights = bool(lights["objects"] or suns or "background" in lights)
+    return has_lights or is_lit(document)
 
 
 def _ball(mesh: TriangleMesh) -> tuple[Any, float]:

@@ -50,6 +50,22 @@ def lights_itself(scene: Scene) -> bool:
     return flux >= _LEAST_EMISSION * area
 
 
+def studio_note(scene: Scene) -> str:
+    """Return a sentence about the studio that a scene has got; "" without one."""
+    if not any(thing.name == LIGHT for thing in scene.objects):
+        return ""
+    emits = any(scene.materials[mesh.material].emits for mesh in scene.meshes)
+    why = (
+        f"its surfaces emit less than {_LEAST_EMISSION:g} on average, too little to light it"
+        if emits
+        else "it has no light of its own"
+    )
+    return (
+        f"A studio was added to the model, a lamp, a sky and a ground: {why}. To leave it out, "
+        "write the scene by `glrt import MODEL -o scene.toml`, and give it other lights there."
+    )
+
+
 def _shows_a_color(material: Material) -> bool:
     is_unlit = isinstance(material, Principled) and material.is_unlit
     return is_unlit or (isinstance(material, Opaque) and "emission" in material.textures)

@@ -247,9 +247,9 @@ def _shared_places(scene: Scene) -> str:
         f"{_name(scene, a)} overlaps {_name(scene, b) if a != b else 'itself'}" for a, b in pairs
     )
     return (
-        f"{overlaps} in one plane, up to the rounding of surfaces of their size, and one of the two emits or is no "
-        "surface. A place shows one "
-        "surface there: the one that emits towards the ray, or else the one of the lower number. "
+        f"{overlaps} in one plane, up to the rounding of surfaces of their size, and one of them "
+        "emits or is no surface. A place shows one surface there: the one that emits towards the "
+        "ray, or else the one of the lower number. "
         "The scene renders faster if you move one of them by a thousandth of its size."
     )
 

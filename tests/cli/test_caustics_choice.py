@@ -1,6 +1,8 @@
 """`--caustics auto`: a pilot decides, alike for each part, crop, seed and driver, by no clock."""
 
 import json
+from argparse import Namespace
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,8 +13,11 @@ from glrt.analysis.method_choice import caustics
 from glrt.analysis.method_choice.caustics import BY_PILOT, CHOICES
 from glrt.cli import caustics as command
 from glrt.cli.commands import run
+from glrt.cli.request import Order
 from glrt.image.image import Image, read_recipe
 from glrt.image.recipe import Recipe
+from glrt.image.sources import load
+from glrt.rendering.stopping import Limits
 from glrt.settings import Settings, settings_for
 from tests.support.renders import same
 from tests.support.system_packages import needs_osmesa
@@ -230,3 +235,20 @@ def test_gains_beyond_belief_are_not_spelled_out() -> None:
         "efficient as without, by a short pilot."
     )
     assert ": over 100 times as efficient" in command.told(caustics.Finding(on, 1e9))
+
+
+def test_a_picture_goes_on_with_its_choice_and_says_so() -> None:
+    """One render of all samples has a larger pilot, or the only one."""
+    scene = load("cornell")
+    settings = settings_for(scene.render, samples=128)
+    given = Namespace()
+    for begun, said in ((64, True), (127, True), (128, False)):
+        image = Image(np.ones((1, 1, 3), np.float32), np.ones((1, 1, 3), np.float32), begun)
+        order = Order(scene, settings, Limits(128), begun=image)
+        assert bool(command.kept(given, order)) == said, begun
+    assert "as the picture began. One render of 128 samples" in command.kept(
+        given, replace(order, begun=replace(image, samples=64))
+    )
+    assert not command.kept(Namespace(caustics="off"), order)
+    matte = replace(order, scene=load("methods/diffuse"))
+    assert not command.kept(given, replace(matte, begun=replace(image, samples=64)))

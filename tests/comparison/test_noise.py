@@ -42,6 +42,19 @@ def test_weights_do_not_know_how_the_samples_were_dealt_out() -> None:
     assert weights[0].min() < 0.7 * weights[0].max()
 
 
+def test_lamps_in_view_have_no_weight() -> None:
+    """Their rounding noise would give them all of it, and hide a factor of the other light."""
+    level, noise = np.ones((16, 16, 3)), np.full((16, 16, 3), 1e-4)
+    noise[:, :8] = 1e-14
+    factor = np.where(np.arange(16) < 8, 1.0, 1.1)[None, :, None]
+    pair = Pair(level * factor, level, noise, noise, 64, 64, alike=True)
+    weights = even_weights(pair)
+    assert not weights[:, :8].any()
+    assert (weights[:, 8:] > 0).all()
+    flat = Pair(level, level, noise * 0, noise * 0, 64, 64, alike=True)
+    assert (even_weights(flat) > 0).all()
+
+
 def test_a_few_hits_too_many_are_no_proof() -> None:
     """A block of 4,096 samples a pixel has 26 hits, one of 64 has 3: once in 125 by chance."""
     image, reference = np.zeros((8, 8, 3)), np.zeros((8, 8, 3))

@@ -75,3 +75,8 @@ def test_a_part_is_read_as_number_and_count() -> None:
     for text in ("3", "3/", "/7", "3/7/9", "-1/7", "3 / 7", "1.5/2", "12345678/12345678", ""):
         with pytest.raises(ValueError, match="is not K/N, such as 3/7"):
             parse_part(text)
+
+
+def test_no_parts_are_not_counted() -> None:
+    with pytest.raises(ValueError, match="'0/0' has no parts: N must be 1 or more"):
+        parse_part("0/0")

@@ -133,12 +133,3 @@ def test_nothing_is_written_where_a_part_cannot_be(
     assert main(["export", "cornell", "-o", str(target)]) == 2
     assert "room-files" in capsys.readouterr().err
     assert sorted(path.name for path in tmp_path.iterdir()) == ["room-files"]
-
-
-def test_the_scene_lies_on_the_middle_of_a_plane() -> None:
-    """Its triangles are small, so that a lamp near a plane is not taken to be in it."""
-    for name in ("cornell", "lamps"):
-        source = load(name)
-        content, _ = to_gltf(source, True)
-        found = load_bytes(content)
-        assert not coincidence_of(found).pairs

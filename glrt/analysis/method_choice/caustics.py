@@ -86,6 +86,12 @@ def may_gain(scene: Scene, settings: Settings) -> bool:
     )
 
 
+def may_differ(scene: Scene, settings: Settings, begun: int) -> bool:
+    """Whether a render of all samples may choose otherwise than one of the `begun` samples."""
+    is_other = _pilot_of(settings, begun) != _pilot_of(settings, settings.samples)
+    return is_other and may_gain(scene, settings_for(settings, caustics="off"))
+
+
 def particles_worth(
     scene: Scene,
     settings: Settings,

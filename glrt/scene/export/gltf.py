@@ -14,7 +14,7 @@ from glrt.scene.export.left_out import LeftOut, Report
 from glrt.scene.export.triangles import Ball, corners_around, triangles_of
 from glrt.scene.lit_scene import SUN_GROUP
 from glrt.scene.materials.nothing import Nothing
-from glrt.scene.model_files.gltf.lights import LUMENS
+from glrt.scene.model_files.gltf.lights import LIT, LUMENS
 from glrt.scene.model_files.gltf_file import GltfFile, Table
 from glrt.scene.scene import Scene
 from glrt.scene.shapes.cylinder import Cylinder
@@ -65,9 +65,13 @@ class _Writer:
             else:
                 self._shape(item, name)
         self._sun()
+        if self._has_light:
+            self.file.note(LIT, True)
         self.file.add("scenes", {"nodes": self._nodes})
         if scene.background.is_pictured or any(map(any, scene.background_colors)):
             self._report("the background")
+            if not self._has_light:
+                self._report("all light with it, so that glrt renders the file in a studio")
         if scene.media_in_use:
             self._report("media")
         if scene.animation:
@@ -148,6 +152,13 @@ class _Writer:
             if math.isfinite(item.reach)
         ]
         return Ball(eye, max([*reaches, float(np.linalg.norm(self._scene.camera.view))]))
+
+    @property
+    def _has_light(self) -> bool:
+        """Whether the file has a lamp, or the sun."""
+        scene = self._scene
+        lamps = any(any(scene.emission_of(item)) for item in scene.visible)
+        return lamps or bool(scene.sun and any(scene.sun_radiance))
 
     def _sun(self) -> None:
         scene = self._scene

@@ -38,6 +38,10 @@ class GltfFile:
         """Set a key at the top."""
         self._table[key] = value
 
+    def note(self, key: str, value: Any) -> None:
+        """Set a key of the file's extras, which other programs pass over."""
+        self._table["asset"].setdefault("extras", {})[key] = value
+
     def vertices(self, rows: NDArray[np.float64]) -> int:
         """Add numbers, (n, 1 to 4), in float32; return the number of their accessor."""
         values = np.ascontiguousarray(rows, "<f4")

@@ -18,6 +18,7 @@ from glrt.scene.schema.phrases import COUNTED, HEADINGS, PLAIN
 from glrt.scene.values import SMALLEST, plain
 
 MOST_PROBLEMS_NAMED = 3
+_SPELT_OUT = 1e6  # whole values below it are shown with their decimal point
 MOST_MISTAKES = 1 << 17  # that are listed: each takes a kilobyte
 
 Model = TypeVar("Model", bound=BaseModel)
@@ -251,7 +252,7 @@ def _shown(value: Any) -> str:
     if isinstance(value, int):
         return str(value) if abs(value) < 10**20 else "a number of more than 20 digits"
     if isinstance(value, float):
-        return number(value)
+        return repr(value) if value.is_integer() and abs(value) < _SPELT_OUT else number(value)
     if isinstance(value, str):
         return f'"{shortened(value)}"'
     if isinstance(value, list | tuple):

@@ -10,6 +10,7 @@ from glrt.scene.model_files.gltf.document import Document, number, numbers
 from glrt.scene.model_files.gltf.nodes import Placed, placed_nodes
 
 LUMENS = 683.0  # lumens of a watt at the most visible wavelength: candela and lux become W
+LIT = "glrt_lit"  # in the extras of a file that glrt exported: its surfaces light the scene
 LAMP_SIZE = 0.01  # radius of the sphere of a point light, over the radius of the model
 
 
@@ -31,6 +32,12 @@ def lights_of(document: Document, size: float) -> dict[str, Any]:
         here = f"lights[{index}]"
         _add(found, document.table(lights[index], here), placed, size, here)
     return found
+
+
+def is_lit(document: Document) -> bool:
+    """Return whether glrt exported a scene with light of its own to the file."""
+    extras = document.table(document.json.get("asset", {}), "asset").get("extras")
+    return isinstance(extras, dict) and extras.get(LIT) is True
 
 
 def _add(
