@@ -14,7 +14,8 @@ def small_cluster(workers: int = 1) -> Iterator[Any]:
     with warnings.catch_warnings(), quiet():
         from distributed import LocalCluster
 
-        cluster = LocalCluster(
+        start: Any = LocalCluster
+        cluster = start(
             n_workers=workers,
             threads_per_worker=1,
             processes=False,
