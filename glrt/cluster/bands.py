@@ -13,6 +13,7 @@ import numpy as np
 from glrt.cluster.crew import Crew
 from glrt.core.errors import RenderError
 from glrt.gpu.context import Choice, Pipeline
+from glrt.image.allotment import NO_COUNTS, NO_SHARES
 from glrt.image.aovs import AovImage
 from glrt.image.film_state import FilmState
 from glrt.image.image import Image
@@ -122,7 +123,7 @@ def _joined_states(states: Sequence[FilmState]) -> FilmState:
     """Return the state of all rows; pixels have equal counts. Nets have scrambles before rows."""
     net = np.concatenate([s.net for s in states], axis=1) if len(states[0].net) else NO_NET
     rows = [_stacked([state[k] for state in states]) for k in range(_BY_ROWS)]
-    return FilmState(*rows, net=net)
+    return FilmState._make([*rows, net, NO_COUNTS, NO_SHARES])
 
 
 def _joined_aovs(parts: Sequence[AovImage]) -> AovImage:
