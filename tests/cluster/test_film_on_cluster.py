@@ -105,6 +105,19 @@ def test_a_worker_whose_driver_differs_renders_nothing(
     assert not list((tmp_path / "f").iterdir())
 
 
+def test_a_worker_of_two_threads_is_refused_by_name(
+    scene: Path, tmp_path: Path, capsys: Printed
+) -> None:
+    with (
+        small_cluster(threads=2) as two,
+        pytest.raises(RenderError, match=r"no worker of tcp://.* can render"),
+    ):
+        film(scene, tmp_path / "f", "--cluster", two.scheduler_address)
+    told = capsys.readouterr().err
+    assert "takes no part: it has 2 threads, and OpenGL needs one" in told
+    assert "--nthreads 1" in told
+
+
 def test_frames_of_a_refused_worker_are_rendered_by_others(
     scene: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Printed
 ) -> None:
