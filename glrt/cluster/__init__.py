@@ -3,8 +3,8 @@
 Modules, each importing only what stands above it:
 
 - addresses: where a cluster is: `local:N`, `tcp://HOST:PORT` or Dask's scheduler file
-- entry: the function that workers run, also those without glrt
 - worker: a worker's job, kept between tasks with its OpenGL
+- entry: the function that workers run, also those without glrt
 - clusters: opens a cluster, or starts a local one
 - crew: gives tasks to workers, and yields each answer once
 - films: frames of a film, by workers

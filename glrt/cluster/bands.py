@@ -13,6 +13,7 @@ import numpy as np
 from glrt.cluster.crew import Crew
 from glrt.core.errors import RenderError
 from glrt.gpu.context import Choice, Pipeline
+from glrt.image.allotment import NO_COUNTS, NO_SHARES
 from glrt.image.aovs import AovImage
 from glrt.image.film_state import FilmState
 from glrt.image.image import Image
@@ -122,12 +123,15 @@ def _joined_states(states: Sequence[FilmState]) -> FilmState:
     """Return the state of all rows; pixels have equal counts. Nets have scrambles before rows."""
     net = np.concatenate([s.net for s in states], axis=1) if len(states[0].net) else NO_NET
     rows = [_stacked([state[k] for state in states]) for k in range(_BY_ROWS)]
-    return FilmState(*rows, net)
+    return FilmState._make([*rows, net, NO_COUNTS, NO_SHARES])
 
 
 def _joined_aovs(parts: Sequence[AovImage]) -> AovImage:
-    values = {f.name: [getattr(part, f.name) for part in parts] for f in fields(AovImage)}
-    return AovImage(**{n: None if v[0] is None else _stacked(v) for n, v in values.items()})
+    def rows(name: str) -> Any:
+        arrays = [getattr(part, name) for part in parts]
+        return None if arrays[0] is None else _stacked(arrays)
+
+    return AovImage(**{part.name: rows(part.name) for part in fields(AovImage)})
 
 
 def _stacked(arrays: Sequence[Any]) -> Any:

@@ -2,6 +2,8 @@
 
 import json
 import os
+import threading
+import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -103,6 +105,19 @@ def test_a_worker_whose_driver_differs_renders_nothing(
     assert not list((tmp_path / "f").iterdir())
 
 
+def test_a_worker_of_two_threads_is_refused_by_name(
+    scene: Path, tmp_path: Path, capsys: Printed
+) -> None:
+    with (
+        small_cluster(threads=2) as two,
+        pytest.raises(RenderError, match=r"no worker of tcp://.* can render"),
+    ):
+        film(scene, tmp_path / "f", "--cluster", two.scheduler_address)
+    told = capsys.readouterr().err
+    assert "takes no part: it has 2 threads, and OpenGL needs one" in told
+    assert "--nthreads 1" in told
+
+
 def test_frames_of_a_refused_worker_are_rendered_by_others(
     scene: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Printed
 ) -> None:
@@ -125,6 +140,56 @@ def test_frames_of_a_refused_worker_are_rendered_by_others(
     assert len(refused) == 1
     assert printed.err.count(f"({refused.pop()}) takes no part: its driver is another.") == 1
     assert len(printed.out.splitlines()) == 5  # each frame once, and the film
+
+
+def test_a_frame_of_a_worker_that_ends_is_rendered_by_another(
+    scene: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Printed
+) -> None:
+    """The slow tests kill processes."""
+    from distributed import get_worker
+
+    result, ended = worker.result, set[str]()
+
+    def mortal(parcel: bytes, digest: str, number: int | None, *rest: str) -> dict[str, Any]:
+        if number is not None and not ended:
+            me = get_worker()
+            ended.add(me.address)
+            me.loop.add_callback(me.close, executor_wait=False)
+            while me.status.name != "closed":
+                time.sleep(0.05)
+            return {"unfit": "it answers nobody"}
+        return result(parcel, digest, number, *rest)
+
+    monkeypatch.setattr(worker, "result", mortal)
+    assert film(scene, tmp_path / "here") == 0
+    with small_cluster(2) as two:
+        assert film(scene, tmp_path / "there", "--cluster", two.scheduler_address) == 0
+    assert len(ended) == 1
+    assert len(frames(capsys)) == 2 * 4  # each once
+    for number in range(4):
+        pair = [(tmp_path / name / f"{number}.exr").read_bytes() for name in ("here", "there")]
+        assert pair[0] == pair[1]
+
+
+def test_a_scheduler_that_ends_is_one_message(
+    scene: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    result, ends = worker.result, threading.Event()
+
+    def slow(parcel: bytes, digest: str, number: int | None, *rest: str) -> dict[str, Any]:
+        if number is not None and number > 0:
+            ends.set()
+            time.sleep(1)
+        return result(parcel, digest, number, *rest)
+
+    monkeypatch.setattr(worker, "result", slow)
+    with small_cluster() as one:
+        end = threading.Thread(target=lambda: (ends.wait(60), one.close()))
+        end.start()
+        with pytest.raises(RenderError, match=r"The scheduler of tcp://.* ended, .*continues\."):
+            film(scene, tmp_path / "f", "--cluster", one.scheduler_address)
+        end.join()
+    assert {file.name for file in (tmp_path / "f").iterdir()} <= {"0.exr"}
 
 
 def test_a_full_disk_is_one_message_and_what_was_written_counts(

@@ -9,14 +9,15 @@ from glrt.cluster.clusters import quiet
 
 
 @contextmanager
-def small_cluster(workers: int = 1) -> Iterator[Any]:
+def small_cluster(workers: int = 1, threads: int = 1) -> Iterator[Any]:
     """Yield a cluster whose scheduler listens on TCP; only one worker may use OpenGL."""
     with warnings.catch_warnings(), quiet():
         from distributed import LocalCluster
 
-        cluster = LocalCluster(
+        start: Any = LocalCluster
+        cluster = start(
             n_workers=workers,
-            threads_per_worker=1,
+            threads_per_worker=threads,
             processes=False,
             protocol="tcp://",
             host="127.0.0.1",
