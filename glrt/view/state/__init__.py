@@ -4,6 +4,7 @@ Modules, each importing only what stands above it:
 
 - explanations: meaning of each control, with its equation
 - keys: names and meanings of keys
+- kept_views: views that the user keeps
 - live_probes: probes kept between pictures
 - preferences: preferences of the user
 - folders: contents of a folder
