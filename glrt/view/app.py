@@ -276,9 +276,8 @@ class App(Selection):
         self.exports.end()
         self.files.finish_picture()
         self.pair.go_on(False)
-        self.show.release()
-        self.paths.release()
-        self.silhouette.release()
+        for part in (self.show, self.paths, self.silhouette):
+            part.release()
         self.files.dialogs.close()
         self.session.release()
 
