@@ -21,17 +21,17 @@ from glrt.view.edits.texture_images import is_texture
 from glrt.view.export.exports import Exports
 from glrt.view.file_watch import Watch
 from glrt.view.files import Files
+from glrt.view.kept_views import KeptViews
 from glrt.view.messages import Messages, Question, nothing
 from glrt.view.selection import Selection
 from glrt.view.state.error_history import Progress
 from glrt.view.state.frame_budget import FrameBudget
-from glrt.view.state.kept_views import KeptViews
 from glrt.view.state.keys import Action
 from glrt.view.state.path_explorer import PathExplorer
 from glrt.view.state.preferences import Preferences, save_preferences
 from glrt.view.state.session import Session
-from glrt.view.state.timeline import Timeline
 from glrt.view.state.zoom import FIT, Rectangle, Zoom
+from glrt.view.timeline import Timeline
 from glrt.view.viewport.black import Blackness
 from glrt.view.viewport.picture import Picture
 from glrt.view.viewport.picture_view import PictureView

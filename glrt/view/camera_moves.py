@@ -11,8 +11,8 @@ from glrt.scene.values import LARGEST, SMALLEST, Vector
 from glrt.view.controls import replaced
 from glrt.view.edits.file_camera import cameras_of
 from glrt.view.files import Files
+from glrt.view.kept_views import KeptViews, Views
 from glrt.view.messages import Messages
-from glrt.view.state.kept_views import KeptViews, Views
 from glrt.view.state.keys import label
 from glrt.view.state.preferences import Preferences
 from glrt.view.state.session import Session

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from glrt.scene.camera import Camera
-from glrt.view.state.kept_views import MOST_SCENES, KeptViews
+from glrt.view.kept_views import MOST_SCENES, KeptViews
 
 HERE = Camera(position=(0, 1, 5), look_at=(0, 0, 0), fov=30, shutter=0.25)
 THERE = Camera(position=(3, 1, 5), look_at=(0, 0.5, 0), focus_distance=2.5, defocus_angle=1)
