@@ -25,6 +25,8 @@ Modules, each importing only what stands above it:
 - files: open and saved files
 - recovery: unsaved edits kept for the next start
 - export: pictures and films that leave the window
+- kept_views: views that the user keeps
+- timeline: frame of the animation that is shown
 - camera_moves: the camera moved by mouse and keys
 - selection: the selected object, and edits of objects
 - app: state shared by the parts of the window

@@ -12,7 +12,6 @@ from glrt.gpu.glsl import files_reread
 from glrt.image.sources import STRICT, FileRules
 from glrt.process.load import LoadMeter
 from glrt.rendering.history.temporal import Way
-from glrt.scene.camera import Camera
 from glrt.scene.scene import Scene
 from glrt.scene.values import Vector
 from glrt.view.compared_picture import Pair
@@ -22,6 +21,7 @@ from glrt.view.edits.texture_images import is_texture
 from glrt.view.export.exports import Exports
 from glrt.view.file_watch import Watch
 from glrt.view.files import Files
+from glrt.view.kept_views import KeptViews
 from glrt.view.messages import Messages, Question, nothing
 from glrt.view.selection import Selection
 from glrt.view.state.error_history import Progress
@@ -30,8 +30,8 @@ from glrt.view.state.keys import Action
 from glrt.view.state.path_explorer import PathExplorer
 from glrt.view.state.preferences import Preferences, save_preferences
 from glrt.view.state.session import Session
-from glrt.view.state.timeline import Timeline
 from glrt.view.state.zoom import FIT, Rectangle, Zoom
+from glrt.view.timeline import Timeline
 from glrt.view.viewport.black import Blackness
 from glrt.view.viewport.picture import Picture
 from glrt.view.viewport.picture_view import PictureView
@@ -65,7 +65,7 @@ class App(Selection):
     fill_screen: Callable[[], object] = nothing  # enters the full screen, or leaves it
     rectangle: Rectangle = (0.0, 0.0, 1.0, 1.0)  # of the picture on the screen, in pixels
     zoom: Zoom = FIT
-    kept_views: dict[str, dict[int, Camera]] = field(default_factory=dict)  # by what was opened
+    kept_views: KeptViews = field(init=False)
     dropped: Path | None = None  # image that waits for the frame that knows where the mouse is
     inspects: bool = False  # whether the values of the pixel under the mouse are shown
     handles: Literal["move", "turn"] = "move"  # what those of the selected object do
@@ -99,6 +99,7 @@ class App(Selection):
         self.silhouette = Silhouette(self.session.context.gl)
         self.pair = Pair(self.session, self.show, self.restart)
         recent = self.preferences_file.with_name("recent.json")
+        self.kept_views = KeptViews(recent.with_name("views.json"))
         self.files = Files(
             self.session, self.messages, source, recent, self.show_scene, self.add_model, rules
         )
@@ -275,9 +276,8 @@ class App(Selection):
         self.exports.end()
         self.files.finish_picture()
         self.pair.go_on(False)
-        self.show.release()
-        self.paths.release()
-        self.silhouette.release()
+        for part in (self.show, self.paths, self.silhouette):
+            part.release()
         self.files.dialogs.close()
         self.session.release()
 

@@ -11,6 +11,7 @@ from glrt.scene.values import LARGEST, SMALLEST, Vector
 from glrt.view.controls import replaced
 from glrt.view.edits.file_camera import cameras_of
 from glrt.view.files import Files
+from glrt.view.kept_views import KeptViews, Views
 from glrt.view.messages import Messages
 from glrt.view.state.keys import label
 from glrt.view.state.preferences import Preferences
@@ -27,7 +28,7 @@ class CameraMoves:
     messages: Messages
     pivot: Vector
     files: Files
-    kept_views: dict[str, dict[int, Camera]]  # by what was opened
+    kept_views: KeptViews
 
     @property
     def camera(self) -> Camera:
@@ -66,9 +67,9 @@ class CameraMoves:
         self.pivot = camera.look_at
 
     @property
-    def views(self) -> dict[int, Camera]:
+    def views(self) -> Views:
         """The views of this scene that were kept, by their numbers from 1."""
-        return self.kept_views.setdefault(self.files.source, {})
+        return self.kept_views.of(self.files.source)
 
     @property
     def cameras_of_files(self) -> dict[str, Camera]:
@@ -76,8 +77,8 @@ class CameraMoves:
         return cameras_of(self.session.scene)
 
     def keep_view(self, number: int) -> None:
-        """Keep the present view under a number, in place of another one, until the window ends."""
-        self.views[number] = self.camera
+        """Keep the present view of the scene under a number, in place of another one."""
+        self.messages.complain(self.kept_views.keep(self.files.source, number, self.camera))
         self.messages.report(f"View {number} is kept; {label(f'alt+{number}')} comes back to it")
 
     def recall_view(self, number: int) -> None:

@@ -11,7 +11,7 @@ from glrt.view.camera_moves import CameraMoves
 from glrt.view.controls import replaced
 from glrt.view.edits.locks import check_locks
 from glrt.view.edits.new_objects import two_digits, with_model, with_new_near
-from glrt.view.edits.scene_edits import with_duplicate, with_object, without_object
+from glrt.view.edits.scene_edits import with_duplicate, with_objects, without_objects
 from glrt.view.edits.state_differences import name_of
 from glrt.view.edits.texture_images import with_texture_image
 from glrt.view.viewport import orbit
@@ -25,6 +25,7 @@ class Selection(CameraMoves):
     """Selects, adds, copies, deletes, hides and locks objects of a session."""
 
     selected: int | None  # number of the selected object
+    _others: tuple[object, frozenset[int]] = (None, frozenset())  # and what they go with
     is_to_be_seen: bool  # whether the panel is to scroll to the selected object
 
     def edit_scene(self, gesture: str, make: Callable[[Scene], Scene]) -> None:
@@ -45,6 +46,28 @@ class Selection(CameraMoves):
         return objects[index] if index is not None and index < len(objects) else None
 
     @property
+    def chosen(self) -> frozenset[int]:
+        """Numbers of all selected objects; those in addition to `selected` go when it changes."""
+        if self.selected_shape is None or self.selected is None:
+            return frozenset()
+        of, others = self._others
+        return frozenset({self.selected}) | (others if of == self._place else frozenset())
+
+    @property
+    def _place(self) -> object:
+        return self.selected, len(self.session.scene.objects)
+
+    def select_also(self, index: int) -> None:
+        """Select one more object, whose values the panel then has, or no longer select it."""
+        chosen = self.chosen
+        left = chosen - {index}
+        if index in chosen:
+            self.selected = self.selected if self.selected in left else max(left, default=None)
+        else:
+            self.selected = index
+        self._others = self._place, left
+
+    @property
     def is_locked(self) -> bool:
         """Whether the selected object is locked against edits."""
         return self.selected in self.session.state.locked
@@ -54,10 +77,11 @@ class Selection(CameraMoves):
         self.selected, self.is_to_be_seen = index, index is not None
 
     def show_object(self, index: int, wanted: bool) -> None:
-        """Show a hidden object or hide it, also if it is locked."""
+        """Show a hidden object or hide it, also if it is locked; a selected one with all others."""
+        numbers = self.chosen if index in self.chosen else {index}
         with self.messages.reporting():
-            shape = replaced(self.session.scene.objects[index], hidden=not wanted)
-            self.session.edit(with_object(self.session.scene, index, shape))
+            hide = partial(replaced, hidden=not wanted)
+            self.session.edit(with_objects(self.session.scene, numbers, hide))
 
     def add(self, kind: str) -> None:
         """Add an object of a kind at the pivot or on what is there, and select it."""
@@ -96,10 +120,10 @@ class Selection(CameraMoves):
             self.select(count)
 
     def delete(self) -> None:
-        """Delete the selected object, unless it is locked."""
-        if self.selected_shape and self.selected is not None:
+        """Delete the selected objects, unless one is locked."""
+        if numbers := self.chosen:
             count = len(self.session.scene.objects)
-            self.edit_scene("", partial(without_object, index=self.selected))
+            self.edit_scene("", partial(without_objects, numbers=numbers))
             if len(self.session.scene.objects) < count:
                 self.selected = None
 

@@ -26,7 +26,7 @@ from glrt.view.edits.keyframes import (
     without_key,
 )
 from glrt.view.edits.unsaved import is_edited
-from glrt.view.state.timeline import Timeline
+from glrt.view.timeline import Timeline
 from tests.support.builders import MATTE, scene_of, sphere
 
 CENTER = ("objects", "ball", "center")

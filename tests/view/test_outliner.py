@@ -12,7 +12,7 @@ from glrt.view.controls import replaced
 from glrt.view.edits.edited_state import State
 from glrt.view.edits.editing import Editing
 from glrt.view.edits.locks import check_locks, followed
-from glrt.view.edits.scene_edits import with_duplicate, with_object, without_object
+from glrt.view.edits.scene_edits import with_duplicate, with_object, without_objects
 from glrt.view.edits.state_differences import change_text
 from glrt.view.outliner.contents import Entry, entries_of, text_of
 
@@ -73,7 +73,7 @@ def test_objects_without_a_name_and_those_of_one_name_stay_apart() -> None:
 def test_a_lock_stays_with_its_object_when_others_come_and_go() -> None:
     edits = Editing(START)
     edits.lock(BALL, True)
-    edits.edit(without_object(ROOM, 0))
+    edits.edit(without_objects(ROOM, {0}))
     assert edits.state.locked == {BALL - 1}
     edits.edit(with_duplicate(edits.scene, 0))
     assert edits.state.locked == {BALL - 1}
@@ -96,9 +96,9 @@ def test_another_scene_begins_without_locks() -> None:
 def test_edits_of_a_locked_object_are_refused_by_its_name() -> None:
     locks = frozenset({BALL})
     moved = with_object(ROOM, BALL, replaced(ROOM.objects[BALL], radius=0.1))
-    for after in (moved, without_object(ROOM, BALL)):
+    for after in (moved, without_objects(ROOM, {BALL})):
         assert refusal(locks, after).startswith("glass ball (object 6) is locked.")
-    for after in (without_object(ROOM, 0), with_object(ROOM, 0, ROOM.objects[1])):
+    for after in (without_objects(ROOM, {0}), with_object(ROOM, 0, ROOM.objects[1])):
         assert refusal(locks, after) == ""
 
 

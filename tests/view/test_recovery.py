@@ -11,7 +11,7 @@ from glrt.image.sources import load
 from glrt.scene.scenefile.toml import read_scene
 from glrt.scene.scenefile.toml_writer import scene_with
 from glrt.view.edits.new_objects import with_model
-from glrt.view.edits.scene_edits import without_object
+from glrt.view.edits.scene_edits import without_objects
 from glrt.view.recovery import keeper
 from glrt.view.recovery.headers import header_of
 from glrt.view.recovery.keeper import AGAIN
@@ -101,7 +101,7 @@ def test_a_signal_without_edits_leaves_nothing(opened: Opened) -> None:
 
 def test_edits_of_a_window_that_died_are_restored_as_one_step(opened: Opened) -> None:
     opened.edit()
-    opened.edit(lambda scene: without_object(scene, 0))
+    opened.edit(lambda scene: without_objects(scene, {0}))
     opened.session.edit(bounces=2, samples=7)
     opened.look()
     opened.die()
@@ -229,7 +229,7 @@ def test_edits_after_an_undo_of_saved_ones_have_no_number(opened: Opened) -> Non
 
 def test_the_last_words_name_the_file(opened: Opened) -> None:
     assert "No edits were unsaved" in opened.recovery.last_words()
-    opened.edit(lambda scene: without_object(scene, 0))
+    opened.edit(lambda scene: without_objects(scene, {0}))
     words = opened.recovery.last_words()
     assert str(opened.file) in words
     assert "`glrt view cornell`" in words

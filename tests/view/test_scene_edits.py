@@ -26,12 +26,12 @@ from glrt.view.edits.scene_edits import (
     unused_materials,
     with_duplicate,
     with_new_material,
-    with_object_of,
+    with_objects,
     with_own_group,
     with_own_material,
     with_renamed_material,
     with_retyped,
-    without_object,
+    without_objects,
     without_unused_materials,
 )
 from tests.support.builders import MATTE, lamp, quad, scene_of, sphere
@@ -135,7 +135,9 @@ def test_a_renamed_material_keeps_its_objects_place_and_intensity() -> None:
 
 def test_materials_that_no_object_has_go_with_the_intensities_of_their_groups() -> None:
     scene = two_balls()
-    dark = with_object_of(with_new_material(scene, 0), 1, "material")
+    dark = with_objects(
+        with_new_material(scene, 0), {1}, lambda it: replaced(it, material="material")
+    )
     assert unused_materials(dark) == ["lamp"]
     bright = replaced(dark, background={"color": [1, 1, 1]})
     cleared = without_unused_materials(bright)
@@ -143,10 +145,10 @@ def test_materials_that_no_object_has_go_with_the_intensities_of_their_groups() 
 
 
 def test_the_last_object_cannot_go_where_nothing_else_is_to_be_seen() -> None:
-    scene = without_object(two_balls(), 0)
+    scene = without_objects(two_balls(), {0})
     assert len(scene.objects) == 1
     with pytest.raises(UsageError, match="nothing to see"):
-        without_object(scene, 0)
+        without_objects(scene, {0})
 
 
 def test_a_group_of_its_own_dims_one_of_two_lamps() -> None:

@@ -8,7 +8,7 @@ from glrt.image.sources import load
 from glrt.scene.camera import Camera
 from glrt.settings import Cost
 from glrt.view.controls import Control, controls_of, replaced, switch
-from glrt.view.edits.scene_edits import opened_shape, with_object, without_object
+from glrt.view.edits.scene_edits import opened_shape, with_object, without_objects
 from glrt.view.widgets.reset import gesture_texts
 from glrt.view.widgets.scrub import after_drag, can_scrub
 
@@ -60,7 +60,7 @@ def test_an_object_goes_back_to_the_one_of_its_name_or_else_of_its_number() -> N
     plain = with_object(ROOM, 0, replaced(objects[0], name=None)).objects
     moved = with_object(ROOM, 5, replaced(objects[5], radius=0.1))
     assert opened_shape(objects, moved.objects, 5) is objects[5]
-    assert opened_shape(objects, without_object(moved, 0).objects, 4) is objects[5]
+    assert opened_shape(objects, without_objects(moved, {0}).objects, 4) is objects[5]
     assert opened_shape(plain, plain, 0) is plain[0]
     assert opened_shape(plain, plain[:-1], 0) is None, "another may have its number"
     assert opened_shape((objects[5], *objects[1:]), objects, 5) is objects[5]

@@ -16,7 +16,7 @@ from glrt.view.edits.scene_edits import (
     with_own_material,
     with_renamed_material,
     with_retyped,
-    without_object,
+    without_objects,
     without_unused_materials,
 )
 from glrt.view.edits.state_differences import change_text
@@ -38,7 +38,7 @@ def reshaped(**changes: Any) -> State:
         (reshaped(center=(0.0, 0.0, 0.0)), "center of glass ball"),
         (reshaped(radius=0.1, hidden=True), "hidden, radius of glass ball"),
         (reshaped(name="pearl"), "name of pearl"),
-        (replace(START, scene=without_object(ROOM, BALL)), "glass ball deleted"),
+        (replace(START, scene=without_objects(ROOM, {BALL})), "glass ball deleted"),
         (replace(START, scene=with_new(ROOM, "box", (0, 0, 0), 0.1)), "box added"),
         (replace(START, scene=with_retyped(ROOM, "glass", "metal")), "material glass"),
         (replace(START, scene=with_lights(ROOM, {"lamp": 2.0})), "light lamp"),

@@ -6,7 +6,7 @@ from pathlib import Path
 from imgui_bundle import imgui
 
 from glrt.scene.scenefile.toml_writer import scene_with
-from glrt.view.edits.scene_edits import without_object
+from glrt.view.edits.scene_edits import without_objects
 from glrt.view.recovery.contents import text_of
 from glrt.view.recovery.headers import Header, recovery_folder
 from glrt.view.recovery.offers import offers_for
@@ -20,7 +20,7 @@ CTRL = imgui.Key.mod_ctrl.value
 def offer(hand: Hand, edits: int) -> Path:
     """Leave what a window leaves that died without one object, and let this window find it."""
     session, folder = hand.session, recovery_folder()
-    scene = without_object(scene_with(session.scene, session.settings), 0)
+    scene = without_objects(scene_with(session.scene, session.settings), {0})
     folder.mkdir(parents=True, exist_ok=True)
     file = folder / "other.toml"
     file.write_text(text_of(Header("cornell", 0.0, edits), scene))
@@ -32,7 +32,7 @@ def offer(hand: Hand, edits: int) -> Path:
 @check
 def an_edit_is_kept_until_it_is_undone(hand: Hand) -> None:
     file = hand.window.recovery.file
-    hand.there(lambda: hand.session.edit(without_object(hand.session.scene, 0)))
+    hand.there(lambda: hand.session.edit(without_objects(hand.session.scene, {0})))
     hand.until(file.exists)
     press(hand, imgui.Key.z, CTRL)
     hand.until(lambda: not file.exists())

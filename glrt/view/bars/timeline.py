@@ -17,7 +17,7 @@ from glrt.view.edits.keyframes import (
     without_key,
 )
 from glrt.view.panels.shortcuts import COMMANDS
-from glrt.view.state.timeline import Timeline
+from glrt.view.timeline import Timeline
 from glrt.view.widgets.tips import explain
 
 _PLAY, _VALUE, _LEAST = 2.2, 11.0, 6.0  # em: the button, the list of values, the slider

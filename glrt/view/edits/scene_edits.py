@@ -3,7 +3,7 @@
 They raise `UsageError` where the result would not be a valid scene.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from typing import Any
 
 from glrt.scene.materials.base import Opaque
@@ -29,11 +29,6 @@ def with_object(scene: Scene, index: int, shape: Shape) -> Scene:
     return replaced(scene, objects=objects)
 
 
-def with_object_of(scene: Scene, index: int, material: str) -> Scene:
-    """Return the scene with another of its materials for object `index`."""
-    return with_object(scene, index, replaced(scene.objects[index], material=material))
-
-
 def with_added(scene: Scene, shape: Shape, material: Material | None = None) -> Scene:
     """Return the scene with one more shape at the end, and `material` under the name it uses."""
     new = {} if material is None else {shape.material: material}
@@ -48,9 +43,17 @@ def with_duplicate(scene: Scene, index: int, moved: Shape | None = None) -> Scen
     return with_added(scene, shape)
 
 
-def without_object(scene: Scene, index: int) -> Scene:
-    """Return the scene without object `index`; its material stays."""
-    return replaced(scene, objects=(*scene.objects[:index], *scene.objects[index + 1 :]))
+def without_objects(scene: Scene, numbers: Collection[int]) -> Scene:
+    """Return the scene without some objects; their materials stay."""
+    left = (shape for number, shape in enumerate(scene.objects) if number not in numbers)
+    return replaced(scene, objects=tuple(left))
+
+
+def with_objects(scene: Scene, numbers: Collection[int], make: Callable[[Shape], Shape]) -> Scene:
+    """Return the scene with some objects replaced by what `make` makes of them."""
+    objects = enumerate(scene.objects)
+    new = tuple(make(shape) if number in numbers else shape for number, shape in objects)
+    return replaced(scene, objects=new)
 
 
 def with_material(scene: Scene, name: str, **changes: Any) -> Scene:

@@ -139,6 +139,7 @@ class Outliner:
     def _look(self, app: App, entry: Entry) -> Look:
         scene = app.session.scene
         text, is_chosen = text_of(entry, scene.objects), entry.key == self.chosen
+        is_chosen |= entry.kind == "object" and entry.number in app.chosen
         if entry.kind != "object":
             return Look(text, _meaning(entry), is_chosen, entry.name in self.folded)
         shape = scene.objects[entry.number]
@@ -154,6 +155,8 @@ class Outliner:
             app.show_object(entry.number, app.session.scene.objects[entry.number].hidden)
         elif used.lock:
             app.session.lock(entry.number, entry.number not in state.locked)
+        elif entry.kind == "object" and imgui.get_io().key_shift:
+            app.select_also(entry.number)
         else:
             self._choose(app, number)
             self._go(app, entry)

@@ -5,13 +5,13 @@ from imgui_bundle.imguizmo import im_guizmo
 
 from glrt.scene.shapes.kinds import Shape
 from glrt.view.app import App
-from glrt.view.edits.scene_edits import with_object
 from glrt.view.viewport.transform import (
     can_turn,
     moved_to,
     object_matrix,
     projection_matrix,
     view_matrix,
+    with_moved,
 )
 
 
@@ -33,10 +33,8 @@ def draw_gizmo(app: App, left: float, top: float, width: float, height: float) -
         matrix,
     )
     if changed and app.selected is not None:
-        index, values = app.selected, matrix.values
-        app.edit_scene(
-            f"object {index}", lambda scene: with_object(scene, index, moved_to(shape, values))
-        )
+        index, moved, all_chosen = app.selected, moved_to(shape, matrix.values), app.chosen
+        app.edit_scene(f"object {index}", lambda scene: with_moved(scene, index, moved, all_chosen))
 
 
 def _operation(app: App, shape: Shape) -> im_guizmo.OPERATION:

@@ -18,14 +18,14 @@ from glrt.scene.materials.principled import Principled
 from glrt.scene.shapes.kinds import Shape
 from glrt.settings import Cost
 from glrt.view.app import App
-from glrt.view.controls import Control, choice, controls_of, switch
+from glrt.view.controls import Control, choice, controls_of, replaced, switch
 from glrt.view.edits.ready_materials import READY, ready_name, with_ready
 from glrt.view.edits.scene_edits import (
     unused_materials,
     with_cone,
     with_material,
     with_new_material,
-    with_object_of,
+    with_objects,
     with_own_material,
     with_renamed_material,
     with_retyped,
@@ -74,7 +74,8 @@ def draw_material(app: App, index: int, shape: Shape) -> None:
     kinds = tuple(material.type for material in scene.materials.values())
     chosen = edited(replace(MATERIAL, choices=tuple(scene.materials), told=kinds), name)
     if chosen is not None:
-        app.edit_scene("", partial(with_object_of, index=index, material=chosen))
+        take = partial(replaced, material=chosen)
+        app.edit_scene("", partial(with_objects, numbers=app.chosen, make=take))
         return
     if _commands(app, index, name):
         return

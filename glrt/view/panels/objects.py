@@ -43,6 +43,8 @@ def draw_object(app: App) -> None:
         return
     _buttons(app, shape)
     imgui.begin_disabled(app.is_locked)
+    if len(app.chosen) > 1:
+        imgui.text_disabled(f"{len(app.chosen)} selected, moved and deleted together")
     _name_of(app, app.selected, shape)
     _shape(app, app.selected, shape)
     draw_medium(app, app.selected, shape)

@@ -6,6 +6,7 @@ import time
 from imgui_bundle import ImVec2, imgui
 
 from glrt.core.memo import kept_for_the_same
+from glrt.scene.shapes.kinds import Shape
 from glrt.scene.shapes.mesh import Mesh
 from glrt.view.app import App
 from glrt.view.panels.gizmo import draw_gizmo, is_held
@@ -148,21 +149,31 @@ def _pixel_values(app: App, seen: Rectangle) -> None:
 
 
 def _outline(app: App, seen: Rectangle) -> None:
-    """Draw the outline of the selected object, fainter while the mouse drags something."""
-    shape = app.selected_shape
-    if shape is None or shape.hidden or min(seen[2:]) < 1:
+    """Draw the outlines of the selected objects, fainter while the mouse drags something.
+
+    Of the meshes, the last alone has one.
+    """
+    if min(seen[2:]) < 1:
         return
+    objects, last = app.session.scene.objects, app.selected_shape
+    fade = _FADED if is_dragging() else 1.0
+    for shape in (objects[number] for number in app.chosen):
+        if not shape.hidden and (shape is last or not isinstance(shape, Mesh)):
+            _outline_of(app, shape, seen, fade)
+
+
+def _outline_of(app: App, shape: Shape, seen: Rectangle, fade: float) -> None:
     left, top, width, height = app.rectangle
     settings = app.session.settings
     painter, here = imgui.get_window_draw_list(), (left, top)
-    fade = _FADED if is_dragging() else 1.0
     if isinstance(shape, Mesh):
         line = app.silhouette.draw(shape, app.camera, app.rectangle, seen)
         corner, end = seen[:2], (seen[0] + seen[2], seen[1] + seen[3])
         tint = imgui.get_color_u32((1.0, 1.0, 1.0, fade))
         painter.add_image(imgui.ImTextureRef(line.glo), corner, end, (0, 1), (1, 0), tint)
         return
-    lines = _edges(shape, app.camera, settings.width / settings.height)
+    edges = _edges if shape is app.selected_shape else outline  # the last result is kept
+    lines = edges(shape, app.camera, settings.width / settings.height)
     places = (lines * (width, height) + here).tolist()
     painter.push_clip_rect(here, (left + width, top + height), True)
     dark, bright = (imgui.get_color_u32((*color[:3], fade * color[3])) for color in _OUTLINE)
@@ -231,7 +242,15 @@ def _clicks(app: App) -> None:
         if picked and imgui.get_io().key_alt:
             app.focus_on(picked.point)
         else:
-            app.select(picked.number if picked else None)
+            _select(app, picked.number if picked else None)
+
+
+def _select(app: App, number: int | None) -> None:
+    """Select an object or nothing; with Shift, one more object."""
+    if not imgui.get_io().key_shift:
+        app.select(number)
+    elif number is not None:
+        app.select_also(number)
 
 
 def _was_dragged() -> bool:

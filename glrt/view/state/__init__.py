@@ -22,7 +22,6 @@ Modules, each importing only what stands above it:
 - shown_picture: whether the picture is whole or coarse
 - path_explorer: paths of a pixel
 - session: scene, settings and their renderer
-- timeline: frame of the animation that is shown
 - denoise_process: a denoiser in a process of its own
 - denoised_picture: denoised picture while rendering goes on
 - costs: current cost of each edit

@@ -10,11 +10,13 @@ from numpy.typing import NDArray
 
 from glrt.scene.animation.rotations import angles_of
 from glrt.scene.camera import Camera
+from glrt.scene.scene import Scene
 from glrt.scene.shapes.box import Box, rotation
 from glrt.scene.shapes.kinds import Shape
 from glrt.scene.shapes.mesh import Mesh
 from glrt.scene.values import Vector
 from glrt.view.controls import replaced
+from glrt.view.edits.scene_edits import with_object, with_objects
 from glrt.view.viewport.orbit import axes
 
 Matrix = list[float]
@@ -50,6 +52,17 @@ def moved_to(shape: Shape, matrix: NDArray[np.float32]) -> Shape:
     lengths = np.linalg.norm(axes, axis=1, keepdims=True)
     moved, is_flat = shifted(shape, step), not lengths.all()  # scaled to nothing: without axes
     return scaled(moved if is_flat else turned(moved, (axes / lengths).T), float(lengths.mean()))
+
+
+def with_moved(scene: Scene, index: int, moved: Shape, chosen: frozenset[int]) -> Scene:
+    """Return the scene with an object as it was moved, and the other chosen ones moved along.
+
+    They keep their sizes and turns.
+    """
+    step = np.subtract(moved.middle, scene.objects[index].middle)
+    if others := chosen - {index} if step.any() else frozenset[int]():
+        scene = with_objects(scene, others, lambda other: shifted(other, step))
+    return with_object(scene, index, moved)
 
 
 def shifted(shape: Shape, step: NDArray[np.float64]) -> Shape:
