@@ -1,4 +1,4 @@
-"""Simulate the smoke of scenes/smoke.toml and of scenes/methods/smoke.toml.
+"""Simulate the smoke of scenes/smoke.toml and of scenes/methods/smoky.toml.
 
 `python tools/plume.py` writes models/smoke.npy next to both.
 

@@ -6,6 +6,7 @@ the first 128 voxels of each axis.
 
 import struct
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,5 +56,5 @@ def _tree(values: Array) -> tuple[bytes, bytes]:
     return topology + b"".join(masks), b"".join(blocks)
 
 
-def _bits(flags: NDArray[np.bool_]) -> bytes:
+def _bits(flags: Any) -> bytes:
     return np.packbits(flags, bitorder="little").tobytes()
