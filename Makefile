@@ -54,7 +54,7 @@ bench: ## measure how fast the kernel, its variants and the window are, and othe
 	$(IN_ENVIRONMENT) bench.rivals
 	$(IN_ENVIRONMENT) bench.efficiency
 
-charts: ## measure error against time on thirteen scenes that separate the methods, into docs/results/chart/
+charts: ## measure error against time on fifteen scenes that separate the methods, into docs/results/chart/
 	@$(BOOTSTRAP) test
 	.venv/bin/glrt chart scenes/methods/*.toml -o docs/results/chart
 

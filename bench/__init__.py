@@ -17,6 +17,7 @@ Programs, `python -m bench.NAME`; `--help` lists their options:
 - load: frames a second and the load of the machine, as the thesis reports them
 - rivals: time to an error of 2 %, against other renderers
 - unseen: the lead over Mitsuba on scenes drawn from a hash of the program
+- volumes_rivals: the same in fog, smoke and milk
 - doubt: how often the judgement on an estimated error is wrong, on new scenes
 - denoised: what a denoiser gains, and whether it knows its error
 - calibration: the estimated error of pictures against their true error

@@ -90,15 +90,28 @@ def seed_of(root: Path = ROOT) -> int:
 def measure(
     commands: Mapping[str, Command], seed: int, size: int, rounds: int, seconds: float
 ) -> Result:
-    """Render a scene; RenderError if a renderer refuses it."""
+    """Render a scene by its seed; RenderError if a renderer refuses it."""
     scene = random_scene(seed)
+    return measure_scene(commands, scene, _about(scene), size, rounds, seconds, seed)
+
+
+def measure_scene(
+    commands: Mapping[str, Command],
+    scene: Scene,
+    about: str,
+    size: int,
+    rounds: int,
+    seconds: float,
+    seed: int = 0,
+) -> Result:
+    """Render a scene that is called `about`; RenderError if a renderer refuses it."""
     own = ours(scene, size)
     with started({GLRT: commands[GLRT]}) as peers:
         level = level_of(peers, own, LEVEL_SECONDS)
     entries = own, best_mitsuba(commands, scene, size, level, TRIAL_SECONDS)
     alone = [pace_alone(commands, entry, seconds) for entry in entries]
     few, many = _runs(commands, entries, rounds, seconds)
-    return result(seed, _about(scene), few, many, alone, level)
+    return result(seed, about, few, many, alone, level)
 
 
 def _runs(
@@ -225,7 +238,7 @@ def _print(parsed: argparse.Namespace) -> int:
     for found in measured(parsed, commands, first):
         results.append(found)
         if parsed.json:
-            figures = {"place": place, "work": work, "scenes": [*map(_plain, results)]}
+            figures = {"place": place, "work": work, "scenes": [*map(plain, results)]}
             files.write_text(parsed.json, json.dumps(figures, indent=1) + "\n")
     if not results:
         raise RenderError("no scene was rendered.")
@@ -238,7 +251,8 @@ def _print(parsed: argparse.Namespace) -> int:
     return 1 if wrong else 0
 
 
-def _plain(found: Result) -> dict[str, Any]:
+def plain(found: Result) -> dict[str, Any]:
+    """Its figures for JSON."""
     return {**found._asdict(), "lead": found.lead.factor._asdict()}
 
 

@@ -1,4 +1,6 @@
-"""Simulate the smoke of scenes/smoke.toml: `python tools/plume.py` writes scenes/models/smoke.npy.
+"""Simulate the smoke of scenes/smoke.toml and of scenes/methods/smoky.toml.
+
+`python tools/plume.py` writes models/smoke.npy next to both.
 
 Warm smoke rises from a bowl, in air that cannot be compressed (Stam, "Stable Fluids", SIGGRAPH
 1999), with vorticity confinement (Fedkiw, Stam and Jensen, "Visual Simulation of Smoke", SIGGRAPH
@@ -20,7 +22,11 @@ SWIRL = 0.22  # share of the vorticity lost to interpolation that is added again
 SOURCE = 0.22  # density that the bowl adds in a step
 FADE = 0.997  # share of the density that a step leaves
 TOO_THIN = 0.01  # densities that are left out
-FILE = Path(__file__).resolve().parent.parent / "scenes" / "models" / "smoke.npy"
+SCENES = Path(__file__).resolve().parent.parent / "scenes"
+FILES = {  # shapes, and where the grids are written
+    SHAPE: SCENES / "models" / "smoke.npy",
+    (40, 20, 20): SCENES / "methods" / "models" / "smoke.npy",
+}
 
 
 def plume(shape: tuple[int, int, int] = SHAPE, steps: int = STEPS, seed: int = 3) -> Array:
@@ -87,5 +93,7 @@ def _without_divergence(speed: Array, waves: NDArray[np.float64]) -> Array:
 
 
 if __name__ == "__main__":
-    np.save(FILE, plume().transpose(1, 0, 2).astype(np.float16))  # (z, y, x)
-    print(f"Wrote {FILE}")
+    for shape, file in FILES.items():
+        steps = STEPS * shape[0] // SHAPE[0]
+        np.save(file, plume(shape, steps).transpose(1, 0, 2).astype(np.float16))  # (z, y, x)
+        print(f"Wrote {file}")

@@ -43,7 +43,7 @@ def variants_of(
     are merged into one, "a = b = c".
     """
     facts = SceneFacts(scene)
-    methods = [it for it in methods if not _refuses_media(facts, settings, it)]
+    methods = [it for it in methods if not _lacks_media(facts, settings, it)]
     named = [_of_method(it, settings) for it in methods if not TRAITS[it].marches]
     named += _marched(facts, settings, methods)
     if leads:
@@ -73,15 +73,16 @@ def live_variant(scene: Scene, settings: Settings) -> Iterator[Variant]:
     Each picture updates them once, and goes on from the updates before it, whose time is not its
     own. So the variant is no rival of the others.
     """
-    if not _refuses_media(SceneFacts(scene), settings, "ddgi"):
+    if not _lacks_media(SceneFacts(scene), settings, "ddgi"):
         _, changes = _of_method("ddgi", settings)
         yield Variant(LIVE, settings_for(settings, **changes), HYSTERESIS)
 
 
-def _refuses_media(facts: SceneFacts, settings: Settings, method: str) -> bool:
-    """Whether the scene has media, and the method finds light of surfaces alone."""
+def _lacks_media(facts: SceneFacts, settings: Settings, method: str) -> bool:
+    """Whether the scene has media, and the method refuses them or leaves them out."""
     traits = traits_of(settings_for(settings, method=method))
-    return bool(facts.media.names) and (traits.has_probes or traits.rasters)
+    leaves_out = traits.has_probes or traits.rasters or traits.model > 0
+    return bool(facts.media.names) and leaves_out
 
 
 def _of_method(method: str, settings: Settings) -> tuple[str, dict[str, Any]]:

@@ -1,16 +1,17 @@
 """How the density of a medium varies: a grid of voxels in a box."""
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Annotated, Any, Self
 
 from pydantic import Field, model_validator
 
 from glrt.scene.files.named_grids import GridFile, NamedGrid, grid_of_array
-from glrt.scene.values import Intensity, Number, Triple, Value, Vector
+from glrt.scene.values import Intensity, Name, Number, Triple, Value, Vector
 from glrt.settings import Cost, Editable
 
 
 class Density(Value):
-    """A grid of densities, (z, y, x), from an .npy file or an array.
+    """A grid of densities, (z, y, x), from an .npy file, an OpenVDB file or an array.
 
     Its voxels fill the box from `min` to `max`, which lies in the frame of the object that holds
     the medium. Between the middles of voxels the density is interpolated, and outside of the box it
@@ -18,7 +19,11 @@ class Density(Value):
     """
 
     file: NamedGrid = Field(
-        description="path of an .npy file: densities of float16 or float32, (z, y, x), at least 0"
+        description="path of an .npy file: densities of float16 or float32, (z, y, x), at least 0; "
+        "or of an OpenVDB file, .vdb, with the extra `volumes`"
+    )
+    grid: Name | None = Field(
+        None, description="name of the grid of an OpenVDB file that holds several"
     )
     min: Vector | None = Field(
         None, description="lowest corner of the box, in the object's frame; default: the object's"
@@ -35,6 +40,7 @@ class Density(Value):
             values: Any = None,
             *,
             file: GridFile | str | None = None,
+            grid: str | None = None,
             min: Triple | None = None,
             max: Triple | None = None,
             scale: Number = 1.0,
@@ -49,6 +55,17 @@ class Density(Value):
                     raise ValueError("a density is given by an array or by a file, not by both")
                 fields["file"] = grid_of_array(values)
             super().__init__(**fields)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _of_its_grid(cls, given: Any) -> Any:
+        """Give the file the name of its grid, so that two grids of one file differ."""
+        if not isinstance(given, Mapping):
+            return given
+        file, grid = given.get("file"), given.get("grid")
+        if not (isinstance(grid, str) and grid and isinstance(file, str) and file):
+            return given
+        return {**given, "file": GridFile.model_construct(file=file, sha256=None, grid=grid)}
 
     @model_validator(mode="after")
     def _is_a_box(self) -> Self:

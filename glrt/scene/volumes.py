@@ -110,8 +110,8 @@ def has_ranks(scene: SceneFields) -> bool:
 def idle_priorities(scene: SceneFields) -> list[int]:
     """Return the numbers of visible objects whose own priority changes nothing.
 
-    Without media, that is each. With media, it is those that no other volume overlaps; an object of
-    an animated scene may come to overlap another one, so none is returned there.
+    Without media, each is. With media, one is that no other volume overlaps; an object of an
+    animated scene may come to overlap another one, so none is returned there.
     """
     ranked = [n for n, it in enumerate(scene.objects) if it.priority is not None and not it.hidden]
     if not has_ranks(scene):

@@ -22,7 +22,8 @@ from tests.support.renders import rendered
 from tests.support.verdicts import SIZE, Clock, candidate, furnace, of_bias, verdict_on
 
 pytestmark = pytest.mark.usefixtures("small_and_cached")
-SCENES = sorted(file.stem for file in (folder("scenes") / "methods").glob("*.toml"))
+WITH_MEDIA = {"foggy", "smoky"}  # whose references take minutes
+SCENES = sorted({file.stem for file in (folder("scenes") / "methods").glob("*.toml")} - WITH_MEDIA)
 QUICK = ["diffuse", "glass", "open"]  # of these, whose references are cheap
 
 

@@ -7,6 +7,7 @@ import pytest
 from glrt.analysis.variants import variants_of
 from glrt.denoise import oidn
 from glrt.image.sources import load
+from glrt.plan.methods import CLASSIC
 from glrt.scene.grids import edges_of_voxels
 from glrt.settings import settings_for
 from tests.support.builders import MATTE, glass, lamp, quad, scene_of, sphere
@@ -80,8 +81,8 @@ def test_steps_are_charted_in_two_lengths_where_there_is_a_grid() -> None:
     assert not any("march" in name for name in names)
 
 
-def test_methods_that_refuse_media_are_not_charted_with_them() -> None:
+def test_methods_that_refuse_media_or_leave_them_out_are_not_charted_with_them() -> None:
     scene = load("fog")
     methods = {it.settings.method for it in variants_of(scene, settings_for(scene.render))}
-    assert not methods & {"ddgi", "gather", "resampled", "hybrid"}
+    assert not methods & {"ddgi", "gather", "resampled", "hybrid", *CLASSIC}
     assert methods >= {"naive", "nee", "mis"}

@@ -8,5 +8,6 @@ Modules, each importing only what stands above it:
 - named_images: images named by a path
 - named_meshes: meshes named by a path
 - named_cameras: cameras named by a path
+- vdb_grids: grids of OpenVDB files
 - named_grids: grids of densities named by a path
 """

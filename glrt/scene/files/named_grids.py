@@ -3,16 +3,18 @@
 import hashlib
 from collections.abc import Callable
 from io import BytesIO
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Annotated, Any
 
 import numpy as np
 from numpy.lib import format as npy
 from numpy.typing import NDArray
-from pydantic import BeforeValidator, PlainSerializer, PrivateAttr, WithJsonSchema
+from pydantic import BeforeValidator, Field, PlainSerializer, PrivateAttr, WithJsonSchema
 
 from glrt.core.errors import ContentError
 from glrt.scene.files.named_files import PATH_SCHEMA, NamedFile, by_path, to_path
+from glrt.scene.files.vdb_grids import SUFFIX, decode_vdb
+from glrt.scene.values import Name
 
 BRICK = 8  # voxels along an edge of a brick: shaders_glsl/media/grid.glsl
 MOST_VOXELS = 1 << 25  # of a grid: 8 bytes each on the driver
@@ -27,6 +29,8 @@ class GridFile(NamedFile):
 
     Voxels are divided by the largest one, so that half floats keep 11 bits of each.
     """
+
+    grid: Name | None = Field(None, description="name of a grid of an OpenVDB file")
 
     _voxels: Voxels | None = PrivateAttr(None)
     _tops: Voxels = PrivateAttr(np.zeros((0, 0, 0), np.float16))
@@ -58,9 +62,26 @@ class GridFile(NamedFile):
         """Whether its voxels are there."""
         return self._voxels is not None
 
+    def __eq__(self, other: object) -> bool:
+        return super().__eq__(other) and isinstance(other, GridFile) and self.grid == other.grid
+
+    def __hash__(self) -> int:
+        return hash((self.file, self.sha256, self.grid))
+
+    def decode(self, content: bytes) -> NDArray[Any]:
+        """Return the array of the content of its file; ContentError if it is no grid."""
+        if PurePosixPath(self.file).suffix.lower() == SUFFIX:
+            return checked_grid(decode_vdb(content, self.grid, MOST_VOXELS))
+        if self.grid is not None:
+            raise ContentError(
+                f"`grid` chooses among the grids of an OpenVDB file, which ends in {SUFFIX}. Leave "
+                "it out"
+            )
+        return decode_grid(content)
+
     def read_as(self, sha256: str, values: NDArray[Any], origin: Path | None) -> "GridFile":
         """Return the grid with its content, (z, y, x)."""
-        found = GridFile(file=self.file, sha256=sha256)
+        found = GridFile(file=self.file, sha256=sha256, grid=self.grid)
         found._most = float(values.max())
         scaled = values.astype(np.float32) / np.float32(found._most or 1.0)
         found._voxels, found._origin = scaled.astype(np.float16), origin

@@ -10,7 +10,7 @@ from glrt.core.text import quoted
 from glrt.scene.files.assets import Asset, AssetReader
 from glrt.scene.files.named_cameras import CameraFile
 from glrt.scene.files.named_files import container_of
-from glrt.scene.files.named_grids import GridFile, decode_grid
+from glrt.scene.files.named_grids import GridFile
 from glrt.scene.files.named_images import ImageFile, Pixels, TextureImage
 from glrt.scene.files.named_meshes import MeshFile
 from glrt.scene.images.image_files import check_brightness, decode_image, decode_texels
@@ -35,7 +35,7 @@ def with_content(named: NamedContent, reader: AssetReader, where: str) -> NamedC
         return named.read_as(asset.sha256, mesh, asset.origin).with_companions(beside.hashes)
     if isinstance(named, GridFile):
         try:
-            return named.read_as(asset.sha256, decode_grid(asset.content), asset.origin)
+            return named.read_as(asset.sha256, named.decode(asset.content), asset.origin)
         except ValueError as error:
             raise SceneError(f"{where}: {named.file}: {of_content(error)}.") from None
     if isinstance(named, TextureImage):
