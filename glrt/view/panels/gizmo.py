@@ -33,8 +33,11 @@ def draw_gizmo(app: App, left: float, top: float, width: float, height: float) -
         matrix,
     )
     if changed and app.selected is not None:
-        index, moved, all_chosen = app.selected, moved_to(shape, matrix.values), app.chosen
-        app.edit_scene(f"object {index}", lambda scene: with_moved(scene, index, moved, all_chosen))
+        index, values, chosen = app.selected, matrix.values, app.chosen
+        app.edit_scene(
+            f"object {index}",
+            lambda scene: with_moved(scene, index, moved_to(shape, values), chosen),
+        )
 
 
 def _operation(app: App, shape: Shape) -> im_guizmo.OPERATION:
