@@ -75,7 +75,7 @@ def add_outputs(parser: argparse.ArgumentParser) -> None:
 
 
 def once(outputs: Sequence[str]) -> list[str]:
-    """Return the names of files without those that lead to the file of an earlier one."""
+    """Return the names of files without repeated ones, by the files that they lead to."""
     found = dict[str, str]()
     for name in outputs:
         found.setdefault(os.path.realpath(name) if name else "", name)

@@ -242,7 +242,8 @@ def check(ways: Collection[Way]) -> None:
     for one, other in combinations([way for way in Way if way in ways], 2):
         if not works(one, other):
             first = one[:1].upper() + one[1:]
-            is_light = Way.HYBRID in ways and Way.PROBES in (one, other)
+            rest = other if one is Way.PROBES else one
+            is_light = Way.PROBES in (one, other) and Way.HYBRID in ways and works(Way.HYBRID, rest)
             advice = " Leave gi out of the effects." if is_light else ""
             why = reason(one, other)
             raise UsageError(f"{first} and {other} do not go together: {why}.{advice}")

@@ -25,3 +25,10 @@ def test_a_number_with_a_point_is_shown_with_it() -> None:
     text = MOVING_BALL.replace("background", "render = { width = 320.0 }\nbackground", 1)
     with pytest.raises(SceneError, match=r"width must be a whole number, got 320\.0\."):
         parse_scene(tomllib.loads(text), "x")
+
+
+@pytest.mark.parametrize("colors", ["[[0.8, 0.1, 0.1]]", "[0.1, 0.2, 0.3]"])
+def test_a_checkerboard_has_two_colors(colors: str) -> None:
+    text = MOVING_BALL.replace("[0.8, 0.1, 0.1]", f"{{ checker = {colors} }}", 1)
+    with pytest.raises(SceneError, match=r"checker must be a list of two colors"):
+        parse_scene(tomllib.loads(text), "x")

@@ -208,3 +208,13 @@ def test_a_refusal_of_hybrid_by_its_probes_names_the_effect_that_needs_them(othe
     with pytest.raises(UsageError) as refused:
         check(ways[1:])
     assert "effects" not in str(refused.value)
+
+
+def test_gi_is_to_be_left_out_only_where_that_suffices() -> None:
+    """The method hybrid without probes must go with the other option."""
+    for way in Way:
+        if way in (Way.HYBRID, Way.PROBES) or works(Way.PROBES, way):
+            continue
+        with pytest.raises(UsageError) as told:
+            check({Way.HYBRID, Way.PROBES, way})
+        assert ("Leave gi out" in str(told.value)) == works(Way.HYBRID, way), way

@@ -23,6 +23,8 @@ def _grey(value: Any) -> Any:
     """Turn numbers among two colors into greys."""
     if not isinstance(value, tuple):
         return value
+    if len(value) != 2:
+        raise ValueError("must be a list of two colors or two numbers")
     return tuple((each,) * 3 if isinstance(each, float | int) else each for each in value)
 
 
