@@ -13,7 +13,7 @@ from glrt.gpu.context import Context
 from glrt.image.sources import load
 from glrt.scene.grids import grid_of
 from glrt.scene.scene import Scene
-from glrt.scene.scenefile.toml_writer import toml_text
+from glrt.scene.schema.tables import toml_text
 from tests.support.renders import rendered
 from tests.support.vdb import vdb_file
 
