@@ -182,7 +182,8 @@ def _lean(first: Polygons, second: Polygons) -> NDArray[np.bool_]:
         > LEANING * size + 2.0**-22 * np.abs(small.corners).max(axis=(1, 2))
         for small, large, size in ((first, second, sizes[0]), (second, first, sizes[1]))
     ]
-    return np.where(sizes[0] < sizes[1], *leans)
+    found: NDArray[np.bool_] = np.where(sizes[0] < sizes[1], *leans)
+    return found
 
 
 def _overlap(first: Polygons, second: Polygons, normals: Floats) -> NDArray[np.bool_]:
