@@ -12,6 +12,15 @@ from tests.window.gestures import add, press, retype
 from tests.window.hand import Hand, check
 
 
+def add_fog(hand: Hand) -> None:
+    """Add a ball and fill it with fog."""
+    add(hand, "sphere")
+    hand.settle()
+    hand.ctx.set_ref("Controls")
+    hand.ctx.item_click("fill with fog")
+    hand.settle()
+
+
 @check
 def an_object_is_filled_with_fog_which_is_thinned_and_left(hand: Hand) -> None:
     session, ctx = hand.session, hand.ctx
@@ -45,11 +54,7 @@ def an_object_is_filled_with_fog_which_is_thinned_and_left(hand: Hand) -> None:
 @check
 def fog_that_is_moved_across_other_fog_is_reported_and_comes_back_by_undo(hand: Hand) -> None:
     session = hand.session
-    add(hand, "sphere")
-    hand.settle()
-    hand.ctx.set_ref("Controls")
-    hand.ctx.item_click("fill with fog")
-    hand.settle()
+    add_fog(hand)
     before = session.scene
     fog = before.objects[-1]
     assert isinstance(fog, Sphere)
@@ -66,11 +71,7 @@ def fog_that_is_moved_across_other_fog_is_reported_and_comes_back_by_undo(hand: 
 @check
 def a_grid_is_shown_by_colours_whose_knots_are_changed(hand: Hand) -> None:
     session, ctx = hand.session, hand.ctx
-    add(hand, "sphere")
-    hand.settle()
-    ctx.set_ref("Controls")
-    ctx.item_click("fill with fog")
-    hand.settle()
+    add_fog(hand)
     grid = Density(np.linspace(0, 2, 64, dtype=np.float32).reshape(4, 4, 4))
     hand.there(lambda: session.edit(with_medium(session.scene, "fog", density=grid)))
     hand.settle()
@@ -104,11 +105,7 @@ def a_grid_is_shown_by_colours_whose_knots_are_changed(hand: Hand) -> None:
 def fog_with_a_priority_takes_the_place_of_other_fog(hand: Hand) -> None:
     """The switch gives it one, a slider raises it, and the other fog may then cross it."""
     session = hand.session
-    add(hand, "sphere")
-    hand.settle()
-    hand.ctx.set_ref("Controls")
-    hand.ctx.item_click("fill with fog")
-    hand.settle()
+    add_fog(hand)
     number = len(session.scene.objects) - 1
     hand.ctx.item_click(f"has priority##shape {number}")
     hand.settle()
