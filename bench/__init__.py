@@ -56,6 +56,7 @@ They share:
 - against_side: one side of `against`, which may import a much older glrt
 - gpu_way: one route, pipeline and tier, measured in a process of its own for `gpu`
 - window_times_side: one window, measured in a process of its own for `window_times`
+- window_stops_side: the longest stop of each action in a window, in a process of its own
 - load_side: frames of one scene, drawn in a process of its own for `load`
 - checkouts: another commit in a temporary folder
 - ratios: ratios of times from interleaved rounds, with intervals

@@ -78,7 +78,11 @@ def once(outputs: Sequence[str]) -> list[str]:
     """Return the names of files without repeated ones, by the files that they lead to."""
     found = dict[str, str]()
     for name in outputs:
-        found.setdefault(os.path.realpath(name) if name else "", name)
+        try:
+            place = os.path.realpath(name) if name else ""
+        except OSError:  # the working folder is gone, as the writer reports
+            place = name
+        found.setdefault(place, name)
     return [*found.values()]
 
 

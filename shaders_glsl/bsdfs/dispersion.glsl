@@ -14,7 +14,8 @@ bool disperses(Material material) {
 vec3 etas_of(Vertex vertex, vec3 throughput) {
     vec3 iors = max(vertex.material.ior + vertex.material.metallic * OFF_THE_D_LINE, 1.0);
     vec3 etas = vertex.is_outside ? 1.0 / iors : iors;
-    return etas * vec3(greaterThan(throughput, vec3(0.0)));
+    etas *= vec3(greaterThan(throughput, vec3(0.0)));
+    return etas;
 }
 
 // The channel that a number of 0 to `count` - 1 chooses among those with light.

@@ -10,6 +10,7 @@ ANSWERING = (
     "gpu_way",
     "glrt_peer",
     "load_side",
+    "window_stops_side",
     "window_times_side",
 )  # run by other programs
 FOLDER = Path(bench.__file__).parent

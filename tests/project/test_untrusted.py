@@ -230,6 +230,7 @@ def test_the_keys_of_a_scene_that_are_paths_are_known() -> None:
             "group",
             "image",
             "file",
+            "grid",
             "node",
             "part",
             "target",

@@ -55,9 +55,10 @@ def dropped(samples: int) -> str:
     """Return a paragraph if samples or particles were dropped; else ""."""
     if not samples:
         return ""
+    found = "1 sample was" if samples == 1 else f"{samples:,} samples were"
     return (
-        f"{counted(samples, 'sample')} were dropped: they were not finite, or exceeded the "
-        "driver's loop limit. If there are many, the picture is biased: use fewer bounces."
+        f"{found} dropped: not finite, or beyond the driver's loop limit. If there are many, the "
+        "picture is biased: use fewer bounces."
     )
 
 

@@ -159,7 +159,7 @@ def _plain(place: Place, detail: ErrorDetails) -> str:
     shown = f", got {_shown(detail['input'])}"
     if detail["type"] not in PLAIN or place in HEADINGS:
         return HEADINGS.get(place, "must be a table") + shown
-    limits = {key: _shown(limit) for key, limit in detail.get("ctx", {}).items()}
+    limits = {key: _limit(limit) for key, limit in detail.get("ctx", {}).items()}
     subject = "its name " if detail["loc"][-1] == "[key]" else ""
     return subject + PLAIN[detail["type"]].format(**limits) + shown
 
@@ -243,6 +243,10 @@ _WORDINGS: dict[str, Callable[[Place, ErrorDetails], str]] = {
 
 def _wording(place: Place, detail: ErrorDetails) -> str:
     return _WORDINGS.get(detail["type"], _plain)(place, detail)
+
+
+def _limit(value: Any) -> str:
+    return number(value) if isinstance(value, float) else _shown(value)
 
 
 def _shown(value: Any) -> str:
