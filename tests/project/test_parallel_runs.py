@@ -19,6 +19,11 @@ from tests.support.alarms import ALPHA, LIMIT, book
 @pytest.mark.parametrize("number", range(2))
 def test_booking(number: int) -> None:
     book(round(0.75 * LIMIT / ALPHA))
+
+@pytest.mark.slow
+@pytest.mark.timeout(601)
+def test_too_long_for_a_share() -> None:
+    raise AssertionError
 """
 
 
@@ -39,11 +44,11 @@ def test_chances_of_false_alarms_and_slow_tests_are_those_of_the_whole_run(tmp_p
     for name, text in (("pytest.ini", INI), ("conftest.py", CONFTEST), ("test_it.py", BOOKING)):
         (tmp_path / name).write_text(text)
     code, lines = run_of_tests(tmp_path, "2", "1/1")
-    assert "2 of 2 slow tests drawn" in lines
+    assert "2 of 3 slow tests drawn" in lines
     chance = "chance of a false alarm, were the seeds drawn anew: 1.5e-04, which is above 0.0001"
     assert chance in lines
     assert lines[-1].startswith("2 passed in ")
     assert code == 1, "each process alone would have passed"
     code, lines = run_of_tests(tmp_path, "1", "0/1")
-    assert "0 of 2 slow tests drawn" in lines
+    assert "0 of 3 slow tests drawn" in lines
     assert code == 0

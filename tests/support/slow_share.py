@@ -3,7 +3,8 @@
 A test is marked `slow`, or some of its cases are: `slow_cases("everything-*")` names their ids.
 
 Every commit draws another share, and the same commit always the same one; so a failure can be
-repeated, and over the commits all slow tests are run.
+repeated, and over the commits all slow tests are run, apart from those that may take longer than
+a share.
 """
 
 import hashlib
@@ -19,6 +20,7 @@ import pytest
 from tests.support.workers import report, reported_by
 
 DRAWN = pytest.StashKey[str]()
+LONGEST = 600  # seconds that a test of a share may take
 SHARE = "slow share"  # by this name a worker of pytest-xdist reports what was drawn
 
 
@@ -39,6 +41,12 @@ def share(text: str) -> tuple[int, int]:
 def is_drawn(test: str, commit: str, drawn: int, of: int) -> bool:
     digest = hashlib.sha256(f"{commit} {test}".encode()).digest()
     return int.from_bytes(digest[:8], "big") % of < drawn
+
+
+def may_be_drawn(item: pytest.Item) -> bool:
+    """Whether a test fits into a share: it asks for no more time than others."""
+    mark = item.get_closest_marker("timeout")
+    return mark is None or mark.args[0] <= LONGEST
 
 
 def commit_of(folder: Path) -> str:
@@ -66,7 +74,11 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         return
     commit = commit_of(config.rootpath)
     slow = [item for item in items if item.get_closest_marker("slow")]
-    left_out = [item for item in slow if not is_drawn(item.nodeid, commit, *wanted)]
+    left_out = [
+        item
+        for item in slow
+        if not may_be_drawn(item) or not is_drawn(item.nodeid, commit, *wanted)
+    ]
     config.hook.pytest_deselected(items=left_out)
     items[:] = [item for item in items if item not in left_out]
     config.stash[DRAWN] = f"{len(slow) - len(left_out)} of {len(slow)} slow tests drawn"
