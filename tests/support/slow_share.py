@@ -3,7 +3,7 @@
 A test is marked `slow`, or some of its cases are: `slow_cases("everything-*")` names their ids.
 
 Every commit draws another share, and the same commit always the same one; so a failure can be
-repeated, and over the commits all slow tests are run, apart from those that may take longer than
+repeated, and over the commits all slow tests are run, except a test that may take longer than
 a share.
 """
 
