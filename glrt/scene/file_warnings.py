@@ -26,10 +26,11 @@ def unread(scene: Scene) -> Iterator[str]:
     """Yield a warning for each model file with content that is left out."""
     meshes = [thing for thing in scene.objects if isinstance(thing, Mesh)]
     for file in dict.fromkeys(mesh.file for mesh in meshes if mesh.file.unread):
-        where = ", ".join(file.libraries) or file.file
+        where = ", ".join(file.libraries)
+        place = f"{where}: left out of {file.file}" if where else f"{file.file}: left out"
         yield (
-            f"{where}: of {file.file} is left out: {few(file.unread)}. docs/how-to/models.md says "
-            "what is read; with a `material` of the scene its object has another look."
+            f"{place}: {few(file.unread)}. docs/how-to/models.md says what is read; a `material` "
+            "of the scene gives an object another look."
         )
 
 

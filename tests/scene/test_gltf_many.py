@@ -161,5 +161,5 @@ def test_a_hull_that_faces_inwards_is_told(tmp_path: Path) -> None:
         more = {"material": hull} if size > 1 else {}
         builder.shown({"attributes": attributes, "indices": indices, **more})
     (tmp_path / "thing.glb").write_bytes(builder.glb())
-    backs = "the hidden backs of 'outline', a hull that shades"
+    backs = "the backs of 'outline', a hull (black inside)"
     assert told(load(tmp_path / "thing.glb")) == [backs]

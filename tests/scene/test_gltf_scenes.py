@@ -194,7 +194,7 @@ def test_what_is_left_out_is_reported_once(tmp_path: Path) -> None:
     builder.json["extensionsUsed"] = ["KHR_materials_clearcoat", "EXT_strange"]
     scene = load(saved(tmp_path, builder))
     (told,) = cautions(scene, settings_for(scene.render))
-    assert "of thing.glb is left out: EXT_strange, clearcoatTexture" in told
+    assert "thing.glb: left out: EXT_strange, clearcoatTexture" in told
 
 
 @pytest.mark.slow

@@ -34,7 +34,7 @@ FIRST = HEAD + "f 1/1 2/2 3/3\nusemtl m\nf 1/1 3/3 4/4\n"
 def told(scene: Scene) -> list[str]:
     """The names of looks that are reported as left out."""
     texts = [text for text in cautions(scene, settings_for(scene.render)) if "left out" in text]
-    return [text.split("is left out: ")[1].split(". docs/")[0] for text in texts]
+    return [text.split(": ", 2)[2].split(". docs/")[0] for text in texts]
 
 
 def model(folder: Path, text: str, **files: str | bytes) -> Scene:

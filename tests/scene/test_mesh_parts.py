@@ -157,7 +157,7 @@ def test_what_is_not_read_is_reported_once(
 ) -> None:
     assert main(["inspect", str(folder / "scene.toml")]) == 0
     told = capsys.readouterr().out
-    assert told.count("models/two.mtl: of models/two.obj is left out: map_Kd.") == 1
+    assert told.count("models/two.mtl: left out of models/two.obj: map_Kd.") == 1
     assert "lambertian matte, models/two.obj:red, models/two.obj:a lamp" in told
 
 

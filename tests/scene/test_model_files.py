@@ -67,6 +67,13 @@ def test_a_saved_model_has_the_same_picture_elsewhere(tmp_path: Path, context: C
     assert same(rendered(scene, context, 4), rendered(again, context, 4))
 
 
+def test_a_missing_buffer_is_reported_with_the_name_of_its_file_once(tmp_path: Path) -> None:
+    (tmp_path / "thing.gltf").write_bytes(textured_square().gltf("away.bin"))
+    with pytest.raises(SceneError) as refused:
+        load(tmp_path / "thing.gltf")
+    assert str(refused.value).startswith(f"{tmp_path}/thing.gltf: there is no file 'away.bin'")
+
+
 def test_an_image_file_next_to_a_gltf_is_named_itself(tmp_path: Path) -> None:
     builder = textured_square()
     builder.json["images"] = [{"uri": "a%20b.png"}]

@@ -20,7 +20,9 @@ class Beside:
     def __call__(self, path: str) -> bytes:
         """Return the content of the file at a path; raises `SceneError`."""
         spelled = self._reader.spelled(path, folder_of(self._asset.path))
-        found = self._reader.read(spelled, f"{self._where}: {self._asset.path}")
+        where, file = self._where, self._asset.path
+        is_named = f"/{where}".endswith(f"/{file}")  # as where a model is all of the scene
+        found = self._reader.read(spelled, where if is_named else f"{where}: {file}")
         self._hashes[found.path] = found.sha256
         return found.content
 

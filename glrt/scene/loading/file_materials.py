@@ -111,7 +111,7 @@ def of_gltf(shape: Mesh, reader: AssetReader, where: str) -> Found:
                 look.unread.append("the volume of glass that is not closed")
                 make_pane(look)
             if look.hides_backs and part.is_turned:
-                look.unread.append(f"the hidden backs of {quoted(name)}, a hull that shades")
+                look.unread.append(f"the backs of {quoted(name)}, a hull (black inside)")
             if look.hides_backs and not shape.hides_backs and part.opening:
                 look.unread.append(f"the hidden backs of {quoted(name)} (backfaces = hidden)")
             if look.is_unlit and part.colors is not None:
