@@ -12,6 +12,9 @@ uniform vec2 before_frame;
 uniform vec2 before_origin;
 uniform sampler2D motion;
 uniform int moved;
+uniform sampler2D deformed;
+uniform sampler2D deformed_normal;
+uniform bool has_deformed;
 
 #include "passes/reprojection.glsl"
 #include "temporal/ataa.glsl"
@@ -25,7 +28,7 @@ void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);
     ivec2 last = textureSize(light, 0) - 1;
     vec4 facing = texelFetch(normal, texel, 0);
-    vec2 place = place_before(seen_before(texelFetch(position, texel, 0)));
+    vec2 place = place_before(seen_before(texel, texelFetch(position, texel, 0)));
     vec4 known = texelFetch(brought, texel, 0);
     float least = 1.0;
     float most = 0.0;

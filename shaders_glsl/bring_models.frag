@@ -13,6 +13,9 @@ uniform vec2 before_frame;
 uniform vec2 before_origin;
 uniform sampler2D motion;
 uniform int moved;
+uniform sampler2D deformed;
+uniform sampler2D deformed_normal;
+uniform bool has_deformed;
 
 #include "passes/reprojection.glsl"
 
@@ -24,8 +27,8 @@ layout(location = 1) out vec4 row[7];  // zeros where the surface was not seen
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);
     vec4 surface = texelFetch(position, texel, 0);
-    vec4 facing = facing_before(surface, texelFetch(normal, texel, 0));
-    vec3 seen = seen_before(surface);
+    vec4 facing = facing_before(texel, surface, texelFetch(normal, texel, 0));
+    vec3 seen = seen_before(texel, surface);
     vec2 place = place_before(seen);
     ivec2 source = NO_TEXEL;
     if (place != NO_PLACE && !has_flag(facing, LAMP_EDGE)) source = texel_at(place, surface.w, seen, facing);

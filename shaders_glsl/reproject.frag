@@ -12,6 +12,9 @@ uniform vec2 before_frame;          // size of its full frame, pixels
 uniform vec2 before_origin;         // origin of its crop
 uniform sampler2D motion;           // objects that moved (glrt/rendering/history/motion.py)
 uniform int moved;                  // its rows
+uniform sampler2D deformed;         // places before of deformed surfaces (deformed.frag)
+uniform sampler2D deformed_normal;  // their normals
+uniform bool has_deformed;
 
 #include "passes/reprojection.glsl"
 
@@ -27,8 +30,8 @@ out vec4 brought;
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);
     vec4 surface = texelFetch(position, texel, 0);
-    vec4 facing = facing_before(surface, texelFetch(normal, texel, 0));
-    vec3 seen = seen_before(surface);
+    vec4 facing = facing_before(texel, surface, texelFetch(normal, texel, 0));
+    vec3 seen = seen_before(texel, surface);
     vec2 place = place_before(seen);
     brought = vec4(0.0);
     if (place == NO_PLACE || (most_at_lamps <= 0.0 && has_flag(facing, LAMP_EDGE))) return;

@@ -21,7 +21,7 @@ from glrt.lab import (
     views,
 )
 from glrt.lab.sweep import Case
-from glrt.lab.temporal import live_probes, moving, still_pixel
+from glrt.lab.temporal import live_probes, moving, posing, still_pixel
 from glrt.lab.volumes import marching, media, overlaps
 
 _ALL = (
@@ -58,6 +58,7 @@ _ALL = (
     Case("speed", "History while the camera moves", moving.speed),
     Case("reflection", "History of what a mirror shows", moving.reflection),
     Case("crossing", "History of an object that moves", moving.crossing),
+    Case("bending", "History of a mesh that bends", posing.bending),
     Case("blur", "A lamp that passes while the shutter is open", blur.passing),
     Case("step", "History under light that changes", moving.step),
     Case("flicker", "History under light that flickers", moving.flicker),

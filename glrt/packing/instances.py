@@ -101,9 +101,9 @@ def _own_tree(mesh: Mesh) -> dict[str, Array]:
 
 
 def _shift(slots: Array, triangles: Array, by: Bases) -> None:
-    """Move links and numbers of corners by `by`, in place."""
+    """Move links and numbers of corners by `by`, forwards or backwards, in place."""
     is_node = slots[:, SLOT - 1] < LEAF
-    slots[is_node, SLOT - 1] += np.uint32(by.slots)
+    slots[is_node, SLOT - 1] += np.array(by.slots).astype(np.uint32)  # a step back wraps around
     triangles["corners"] += by.corners
 
 

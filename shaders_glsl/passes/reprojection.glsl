@@ -34,16 +34,23 @@ vec3 by_texels(int row, int first, vec4 vector) {
     return product;
 }
 
+// Whether the surface at a texel of this view is of a triangle that was deformed.
+bool is_deformed(ivec2 texel) {
+    return has_deformed && texelFetch(deformed, texel, 0).w > 0.0;
+}
+
 // A surface relative to the eye before; a direction where the ray meets nothing, which is infinitely far.
-vec3 seen_before(vec4 surface) {
+vec3 seen_before(ivec2 texel, vec4 surface) {
     if (surface.w <= 0.0) return surface.xyz;
+    if (is_deformed(texel)) return texelFetch(deformed, texel, 0).xyz;
     int row = row_of(surface.w);
     if (row < 0) return surface.xyz + eye_shift;
     return by_texels(row, 1, vec4(surface.xyz, 1.0));
 }
 
 // The normal that a surface had before; flags stay.
-vec4 facing_before(vec4 surface, vec4 facing) {
+vec4 facing_before(ivec2 texel, vec4 surface, vec4 facing) {
+    if (is_deformed(texel)) return texelFetch(deformed_normal, texel, 0);
     int row = surface.w > 0.0 ? row_of(surface.w) : -1;
     if (row < 0) return facing;
     return vec4(normalize(by_texels(row, 4, vec4(facing.xyz, 0.0))), facing.w);

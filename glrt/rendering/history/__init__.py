@@ -4,6 +4,7 @@ Modules, each importing only what stands above it:
 
 - drawn_pass: a fragment shader over all pixels
 - motion: how objects moved between two views
+- deformed: where surfaces of posed meshes were before
 - gbuffer: first surface of each pixel (G-buffer)
 - reprojection: an earlier view projected to the current one
 - history_filter: interface of the temporal modes

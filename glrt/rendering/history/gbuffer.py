@@ -14,6 +14,7 @@ from glrt.gpu.canvas import Canvas
 from glrt.gpu.context import checked
 from glrt.gpu.program import tile_count
 from glrt.gpu.programs import AnyKernel
+from glrt.rendering.history.deformed import DeformedPass
 from glrt.rendering.history.drawn_pass import DrawnPass
 from glrt.rendering.history.motion import MotionTable
 from glrt.rendering.kernel_switch import taken
@@ -40,7 +41,7 @@ class Surfaces:
         self._textures: dict[str, moderngl.Texture] = {}
         self._size_of: moderngl.Texture | None = None
         self.marked = Canvas(gl, "f4")
-        self.motion = MotionTable(gl)
+        self.motion, self.deformed = MotionTable(gl), DeformedPass(gl)
         self.scene: Scene | None = None
         self.settings: Settings | None = None
 
@@ -91,6 +92,7 @@ class Surfaces:
         """Release the textures; the G-buffer is empty again."""
         self._free()
         self.motion.release()
+        self.deformed.release()
         self.scene = self.settings = self._size_of = None
 
     def _free(self) -> None:

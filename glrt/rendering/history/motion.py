@@ -1,7 +1,7 @@
 """How objects moved between two views: history of a surface lies where the surface was.
 
 An object moves by the affine map between the frames that its shape has in both scenes. It may turn
-and grow, too. Objects that are deformed, such as posed meshes, are taken for objects that stay.
+and grow, too. Posed meshes have no such map: see deformed.py.
 """
 
 from typing import NamedTuple

@@ -1,8 +1,8 @@
 """Reproject what was shown of one view to another: history follows the surfaces.
 
 History is taken over from a pixel with the same object, as far from the eye within 2 %, and facing
-the same way within 25 degrees (shaders_glsl/passes/reprojection.glsl). Objects that moved take
-their history along.
+the same way within 25 degrees (shaders_glsl/passes/reprojection.glsl). Objects that moved or have
+another pose take their history along.
 """
 
 from typing import Any, NamedTuple
@@ -12,6 +12,7 @@ import numpy as np
 
 from glrt.gpu.canvas import Canvas
 from glrt.packing.scene_arrays import screen_axes
+from glrt.rendering.history.deformed import View
 from glrt.rendering.history.drawn_pass import DrawnPass
 from glrt.rendering.history.gbuffer import Surfaces
 from glrt.scene.scene import Scene
@@ -42,13 +43,18 @@ def between(now: Surfaces, before: Surfaces) -> tuple[dict[str, moderngl.Texture
     settings = before.settings
     axes = screen_axes(before.scene.camera, settings.width / settings.height)
     shift = np.subtract(now.scene.camera.position, before.scene.camera.position, dtype=np.float64)
+    assert now.settings
     motion = now.motion.between(now.scene, before.scene)
+    view = View(now.scene, now.settings, now.position, now.normal)
+    deformed = now.deformed.between(view, before.scene)
     textures = {
         "position": now.position,
         "normal": now.normal,
         "before_position": before.position,
         "before_normal": before.normal,
         "motion": motion or now.position,
+        "deformed": deformed[0] if deformed else now.position,
+        "deformed_normal": deformed[1] if deformed else now.position,
     }
     values = {
         "eye_shift": shift,
@@ -57,7 +63,8 @@ def between(now: Surfaces, before: Surfaces) -> tuple[dict[str, moderngl.Texture
         "before_origin": np.array(settings.crop[:2] if settings.crop else (0, 0)),
     }
     found: dict[str, Any] = {name: tuple(map(float, value)) for name, value in values.items()}
-    return textures, {**found, "moved": motion.height if motion else 0}
+    moved = {"moved": motion.height if motion else 0, "has_deformed": bool(deformed)}
+    return textures, {**found, **moved}
 
 
 class Reprojection:
