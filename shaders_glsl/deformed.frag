@@ -19,7 +19,8 @@ void main() {
     vec4 facing = texelFetch(normal, texel, 0);
     vec3 upright = cross(dFdx(here), dFdy(here));
     vec3 upright_before = cross(dFdx(there), dFdy(there));
-    if (surface.w != object || dot(upright, upright) <= 0.0 || dot(upright_before, upright_before) <= 0.0) discard;
+    bool has_normals = dot(upright, upright) > 0.0 && dot(upright_before, upright_before) > 0.0;
+    if (!has_normals || abs(surface.w - object) > 0.5) discard;
     upright = normalize(upright);
     if (abs(dot(surface.xyz - here, upright)) > SAME_PLACE * length(surface.xyz)) discard;
     seen = vec4(there, 1.0);

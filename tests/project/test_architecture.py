@@ -40,6 +40,7 @@ ENTRIES |= {"surfaces.comp", "surfaces.frag", "edges.frag", "reproject.frag", "f
     *(f"probe_{name}.comp" for name in ("rays", "light", "distances", "place")),
     *("probe_balls.vert", "probe_balls.frag"),
     *("silhouette.vert", "silhouette.frag", "silhouette_line.frag", "raster.vert", "raster.frag"),
+    *("deformed.vert", "deformed.frag"),
     *("bring_models.frag", "reconstruct.frag", "predict.frag", "predictions.frag"),
     "upsample.frag",
 }

@@ -279,26 +279,6 @@ def test_the_triangles_of_instances_are_kept_once() -> None:
     assert SceneFacts(scene).triangles == len(BLOB[1])
 
 
-@pytest.mark.parametrize("sizes", [(3, 1), (1, 3)], ids=["smaller", "larger"])
-def test_trees_of_instances_stay_where_another_mesh_changes(sizes: tuple[int, int]) -> None:
-    """A tree that follows another one is the tree that is built without it."""
-    scenes = (
-        scene_of(
-            [mesh(icosphere(size), "white"), *(mesh(BLOB, "white", **at) for at in PLACES[:2])],
-            {"white": MATTE},
-        )
-        for size in sizes
-    )
-    before, now = map(SceneFacts, scenes)
-    found, wanted = tree_of(now, tree_of(before)), tree_of(now)
-    assert found
-    assert wanted
-    assert found.own.names == wanted.own.names
-    for name in ("slots", "triangles"):
-        assert np.array_equal(getattr(found.own, name), getattr(wanted.own, name)), name
-    assert np.array_equal(found.shapes.wide.slots, wanted.shapes.wide.slots)
-
-
 def test_numbers_of_instances_and_triangles_fit() -> None:
     check_numbers(100, 22, 1000)
     with pytest.raises(SceneError, match=r"in 600 places, and meshes of up to 4,194,304 triangles"):

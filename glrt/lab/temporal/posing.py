@@ -99,5 +99,6 @@ def _banner() -> MeshFile:
     colors = np.random.default_rng(2).uniform(0.05, 1, (len(x), 3))
     file = mesh_of_arrays(np.stack([x, y, 0 * x], axis=1), faces, colors=colors)
     assert file.triangles
+    assert file.sha256
     posed = replace(file.triangles, poses=Leaning(file.triangles))
     return file.read_as(file.sha256, posed, None)

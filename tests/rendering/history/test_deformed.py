@@ -92,7 +92,7 @@ def own(scene: Scene, position: Array, w: float) -> Array:
 
 
 def places_before(now: Scene, before: Scene, context: Context) -> tuple[Array, ...]:
-    """Of the pixels of `now`: surfaces, those before, and their normals; (H, W, 4) each."""
+    """Surfaces of the pixels of `now`, the same before, and their normals; (H, W, 4) each."""
     with view(before, context, SIZE) as old, view(now, context, SIZE) as here, context.gl:
         reprojection = Reprojection(context.gl, UNLIMITED)
         texture = context.gl.texture(SIZE, 4, bytes(16 * SIZE[0] * SIZE[1]), dtype="f4")
