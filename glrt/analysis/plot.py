@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
+from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -35,6 +36,8 @@ _STYLES = (  # colour, marker, dashes: one row for each curve of a chart
     ("#999933", "h", (0, (6, 1, 2, 1))),
 )
 IN_LEGEND, LINE = 5, 0.2  # lines that a chart of a sheet has room for; inches of one more
+LEAST_WIDTH = 5.2  # inches of a sheet: its title has room
+MOST_UPWARDS = 40  # letters of a line that is written upwards next to a chart of a sheet
 MOST_CURVES = len(_STYLES)  # curves that a chart can distinguish
 _HOLLOW = "hollow markers: 0"
 _LOOK: dict[Any, Any] = {
@@ -98,13 +101,14 @@ def save_sheet(charts: Sequence[Chart], path: Path, title: str, columns: int = 4
     rows = -(-len(charts) // columns)
     columns = min(columns, len(charts))
     more = max(0, max(len(chart.curves) for chart in charts) - IN_LEGEND)
-    with open_figure((4.1 * columns, (3.7 + LINE * more) * rows + 0.4)) as figure:
+    width = max(4.1 * columns, LEAST_WIDTH)
+    with open_figure((width, (3.7 + LINE * more) * rows + 0.4)) as figure:
         figure.suptitle(title, x=0.01, ha="left", fontsize=14)
         grid = np.atleast_1d(figure.subplots(rows, columns)).ravel()
         for axes, chart in zip(grid, charts, strict=False):
             _draw(axes, chart)
             axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.22), fontsize=8)
-            axes.yaxis.label.set_size(8.5)
+            axes.set_ylabel(fill(chart.y_label, MOST_UPWARDS), size=8.5)
         for axes in grid[len(charts) :]:
             axes.set_axis_off()
         save_figure(figure, path)
