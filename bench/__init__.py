@@ -27,6 +27,7 @@ Programs, `python -m bench.NAME`; `--help` lists their options:
 - nets: the variance of sampler net over that of sobol, and its calibration
 - choices: whether `--caustics auto` chooses the best
 - films: whether a film takes longer than its stills
+- clusters: what a cluster costs
 - foggy: samples of lamps along segments through fog
 - terms: terms of light by several methods, and their cost
 - effects: light and rays of each effect of method hybrid
@@ -56,6 +57,7 @@ They share:
 - against_side: one side of `against`, which may import a much older glrt
 - gpu_way: one route, pipeline and tier, measured in a process of its own for `gpu`
 - window_times_side: one window, measured in a process of its own for `window_times`
+- sleeping: tasks that sleep, for `clusters`
 - window_stops_side: the longest stop of each action in a window, in a process of its own
 - load_side: frames of one scene, drawn in a process of its own for `load`
 - checkouts: another commit in a temporary folder
