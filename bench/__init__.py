@@ -27,7 +27,7 @@ Programs, `python -m bench.NAME`; `--help` lists their options:
 - nets: the variance of sampler net over that of sobol, and its calibration
 - choices: whether `--caustics auto` chooses the best
 - films: whether a film takes longer than its stills
-- clusters: what a cluster costs
+- clusters: the cost of a cluster, of its scheduler and of several workers
 - foggy: samples of lamps along segments through fog
 - terms: terms of light by several methods, and their cost
 - effects: light and rays of each effect of method hybrid

@@ -1,4 +1,4 @@
-"""What a cluster costs, its scheduler and two workers against one: `python -m bench.clusters`.
+"""The cost of a cluster, of its scheduler and of several workers: `python -m bench.clusters`.
 
 The scheduler's share is measured with workers that sleep in place of rendering, as ten machines do
 for the machine of the scheduler: 1 - (time of the tasks) / (workers x time). They send back as many
@@ -29,8 +29,8 @@ from glrt.series.rendering import RenderOptions
 from glrt.series.series import Series
 from glrt.settings import settings_for
 
-LENGTHS = (0.5, 2.0, 8.0)  # seconds of a task
-TASKS = 4  # of each worker
+LENGTHS = (1.0, 10.0)  # seconds of a task
+TASKS = 10  # of each worker
 
 
 def main(arguments: list[str] | None = None) -> int:
