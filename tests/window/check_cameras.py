@@ -5,6 +5,7 @@ from pathlib import Path
 
 from imgui_bundle import imgui
 
+from glrt.view.controls import replaced
 from glrt.view.viewport.sides import SIDES, ball_of
 from tests.scene.test_file_cameras import cameras
 from tests.window.check_palette import find
@@ -41,6 +42,26 @@ def the_scene_is_seen_from_its_sides(hand: Hand) -> None:
     press(hand, imgui.Key.enter)
     assert app.camera.position[2] < ball.center[2]
     hand.there(app.undo)
+
+
+@check
+def a_click_on_an_axis_looks_along_it(hand: Hand) -> None:
+    app, ctx, start = hand.window.app, hand.ctx, hand.session.scene.camera
+    ctx.mouse_move("//Picture/picture")
+    assert not ctx.item_exists("//Picture/axis right")
+    hand.there(lambda: app.prefer(replaced(app.preferences, axes=True)))
+    ctx.yield_(3)
+    for side in ("right", "top", "back"):
+        ctx.item_click(f"//Picture/axis {side}")
+        ctx.yield_(3)
+        away = [a - b for a, b in zip(app.camera.position, app.pivot, strict=True)]
+        largest = max(range(3), key=lambda axis: abs(away[axis]))
+        assert SIDES[side][largest] * away[largest] > 0
+        assert app.camera.up[1] > 0, "it is turned, not rolled"
+        assert app.selected is None, "the click is not one on the picture"
+    hand.there(app.home)
+    assert app.camera == start
+    hand.there(lambda: app.prefer(replaced(app.preferences, axes=False)))
 
 
 @check

@@ -27,6 +27,7 @@ CHOICES: dict[str, Any] = {
     "walk speed": 2.0,
     "wheel speed": 3.0,
     "invert": True,
+    "axes": True,
     "theme": "light",
     "scale": 1.25,
     "tour": True,

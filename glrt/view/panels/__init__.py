@@ -8,6 +8,7 @@ Modules, each importing only what stands above it:
 - legend: legend of false colours
 - plots: numbers, and the error over time
 - gizmo: handles of the selected object
+- axes: axes of the scene in a corner of the picture
 - key_table: keys, and how to change them; all of them over the window
 - navigation: keys that lead from the picture to the panel
 - compare: displayed view, and the reference picture

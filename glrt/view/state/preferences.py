@@ -74,6 +74,9 @@ class Preferences(Frozen):
     invert: Annotated[bool, Editable(FREE)] = Field(
         False, description="invert the vertical axis of drags"
     )
+    axes: Annotated[bool, Editable(FREE)] = Field(
+        False, description="show the axes of the scene; a click on one looks along it"
+    )
     theme: Annotated[Theme, Editable(FREE)] = Field("dark", description="colours of the window")
     scale: Annotated[float, Editable(FREE, slider=(0.75, 3))] = Field(
         1.0, description="size of the text", ge=0.5, le=4
