@@ -82,6 +82,17 @@ def test_a_square_is_as_in_a_glb_file_to_the_bit(tmp_path: Path) -> None:
     assert np.array_equal(pictures[0], pictures[1])
 
 
+STATED = (("", False), ("bool doubleSided = 0", True), ("bool doubleSided = 1", False))
+
+
+@pytest.mark.parametrize(("stated", "told"), STATED)
+def test_only_a_stated_lack_of_backs_is_reported(tmp_path: Path, stated: str, told: bool) -> None:
+    """False is the default of USD, which most programs leave unwritten and show both sides."""
+    text = square(more=COORDINATES, material="/red").replace("bool doubleSided = 1", stated)
+    red = surface("red", "color3f inputs:diffuseColor = (0.8, 0.1, 0.1)")
+    assert ("hidden backs" in left_out(scene_of(tmp_path, layer(text + red)))) == told
+
+
 INTERPOLATIONS = {  # values, and which of NORMALS each corner has
     "vertex": ("(1, 0, 0), (0, 1, 0), (0, 0, 1), (0, -1, 0)", [0, 1, 2, 3]),
     "varying": ("(0, 1, 0), (1, 0, 0), (0, 0, 1), (0, -1, 0)", [1, 0, 2, 3]),

@@ -50,9 +50,8 @@ class Primitives:
         if polygons.is_mirrored:
             corners = corners[:, ::-1]
         faces = np.flatnonzero(polygons.kept)[owners]
-        is_two_sided = not prim.IsA(UsdGeom.Mesh) or bool(
-            UsdGeom.Mesh(prim).GetDoubleSidedAttr().Get(self._time)
-        )
+        sided = UsdGeom.Mesh(prim).GetDoubleSidedAttr()  # not valid for other shapes
+        is_two_sided = not (sided and sided.HasAuthoredValue()) or bool(sided.Get(self._time))
         has_colors = bool(UsdGeom.PrimvarsAPI(prim).FindPrimvarWithInheritance(COLORS).HasValue())
         normals = self._normals(polygons, corners)
         primitives = list[Table]()
