@@ -61,6 +61,7 @@ def test_every_shader_file_is_compiled_by_a_test() -> None:
         *(f"temporal/{name}.glsl" for name in TEMPORAL),
         *("ataa_mask.frag", "ataa.frag", "upsample.frag", "gather.comp", "more.comp"),
         *("silhouette.vert", "silhouette.frag", "silhouette_line.frag"),  # by tests/view
+        *("deformed.vert", "deformed.frag"),
         *("probe_balls.vert", "probe_balls.frag", "passes/probe_balls.glsl"),
         *DISPLAY_STAGES,
         *PROBES,
@@ -78,7 +79,10 @@ def test_the_display_compiles_without_a_warning(ctx: moderngl.Context, name: str
     assert warnings(*stages) == []
 
 
-def test_balls_of_probes_compile_without_a_warning(ctx: moderngl.Context) -> None:
+@pytest.mark.parametrize("name", ["probe_balls", "deformed"])
+def test_what_is_drawn_from_corners_compiles_without_a_warning(
+    ctx: moderngl.Context, name: str
+) -> None:
     assert ctx.version_code >= 430
     stages = ((VERTEX, "vert"), (FRAGMENT, "frag"))
-    assert warnings(*((kind, Source(f"probe_balls.{name}").text) for kind, name in stages)) == []
+    assert warnings(*((kind, Source(f"{name}.{stage}").text) for kind, stage in stages)) == []
