@@ -16,8 +16,8 @@ from glrt.scene.scene import Scene
 from glrt.scene.shapes.sphere import Sphere
 from glrt.settings import EFFECTS, Cost, Method, Settings
 from glrt.view.controls import Control, control_of_items, controls_of, replaced
-from glrt.view.state.explanations import EFFECT_TEXTS
 from glrt.view.state.preferences import Preferences
+from glrt.view.widgets.explanations import EFFECT_TEXTS
 
 
 def of(model: type, name: str) -> Control:

@@ -7,9 +7,9 @@ from glrt.scene.materials.metal import Metal
 from glrt.view.controls import Control, controls_of
 from glrt.view.panels import lights
 from glrt.view.state import costs
-from glrt.view.state.explanations import EXPLANATIONS, explanation_of
 from glrt.view.tabs.kept import SETTINGS
 from glrt.view.tabs.paths import PER_UPDATE
+from glrt.view.widgets.explanations import EXPLANATIONS, explanation_of
 
 
 @pytest.mark.parametrize("name", ["method", "sampler", "roulette", "bounces", "samples"])

@@ -2,7 +2,6 @@
 
 Modules, each importing only what stands above it:
 
-- explanations: meaning of each control, with its equation
 - keys: names and meanings of keys
 - live_probes: probes kept between pictures
 - preferences: preferences of the user

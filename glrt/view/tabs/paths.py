@@ -12,9 +12,9 @@ from glrt.settings import Cost
 from glrt.view.app import App
 from glrt.view.controls import controls_of, replaced, switch
 from glrt.view.state.costs import bounces_control
-from glrt.view.state.explanations import EFFECT_TEXTS
 from glrt.view.state.session import Session
 from glrt.view.tabs.kept import edit, settings_rows
+from glrt.view.widgets.explanations import EFFECT_TEXTS
 from glrt.view.widgets.fields import edited, edited_fields
 
 PATHS = ("method", "sampler", "roulette", "seed", "caustics")

@@ -11,5 +11,6 @@ Modules, each importing only what stands above it:
 - scrub: a drag on a label
 - reset: a double click on a value
 - finder: rows of the panel by name
+- explanations: meaning of each control, with its equation
 - fields: one widget for each kind of field
 """

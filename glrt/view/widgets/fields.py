@@ -9,8 +9,8 @@ from imgui_bundle import hello_imgui, imgui
 
 from glrt.settings import Cost
 from glrt.view.controls import MEANING, Control, Kind
-from glrt.view.state.explanations import explanation_of
 from glrt.view.widgets.cost_badges import tags
+from glrt.view.widgets.explanations import explanation_of
 from glrt.view.widgets.finder import FINDER
 from glrt.view.widgets.reset import by_gestures, gesture_texts
 from glrt.view.widgets.rows import LEAST, THREE, WORDS, Row
