@@ -47,14 +47,23 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def _run(parsed: argparse.Namespace) -> None:
-    print(f"| seconds of a task | {parsed.workers} workers that sleep, s | scheduler's share |")
+    _print_shares(parsed.workers)
+    _print_films(parsed)
+    print(f"\n{machine(open_context().renderer)}")
+
+
+def _print_shares(workers: int) -> None:
+    print(f"| seconds of a task | {workers} workers that sleep, s | scheduler's share |")
     print("|---|---|---|")
-    with _crew(parsed.workers) as crew:
-        _slept(crew, 0.0, parsed.workers)  # workers open OpenGL once
+    with _crew(workers) as crew:
+        _slept(crew, 0.0, workers)  # workers open OpenGL once
         for length in LENGTHS:
-            taken = _slept(crew, length, TASKS * parsed.workers)
+            taken = _slept(crew, length, TASKS * workers)
             share = 1 - TASKS * length / taken
             print(f"| {length:g} | {taken:.2f} | {100 * share:.1f} % |", flush=True)
+
+
+def _print_films(parsed: argparse.Namespace) -> None:
     ways: dict[str, Callable[[Series, range, Path], None]] = {
         "one process": _alone,
         "local:1": lambda *film: _on(1, *film),
@@ -74,7 +83,6 @@ def _run(parsed: argparse.Namespace) -> None:
     for way, found in times.items():
         gains = [one / own for one, own in zip(times["local:1"], found, strict=True)]
         print(f"| {way} | {median(found):.2f} | {median(gains):.3f} |")
-    print(f"\n{machine(open_context().renderer)}")
 
 
 @contextmanager

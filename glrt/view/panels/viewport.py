@@ -9,7 +9,7 @@ from glrt.core.memo import kept_for_the_same
 from glrt.scene.shapes.kinds import Shape
 from glrt.scene.shapes.mesh import Mesh
 from glrt.view.app import App
-from glrt.view.panels.axes import draw_axes
+from glrt.view.panels.axes import click_axes, draw_axes
 from glrt.view.panels.gizmo import draw_gizmo, is_held
 from glrt.view.panels.inspector import pixel_text
 from glrt.view.panels.legend import HEIGHT, draw_legend
@@ -61,10 +61,11 @@ def draw_viewport(app: App, room: ImVec2) -> None:
     draw_paths(app, seen)
     draw_gizmo(app, corner.x, corner.y, width, height)
     draw_outside(app, seen)
+    draw_axes(app, seen)
     if not is_held(app):  # a button below the handles would take the mouse from them
         if is_wiped:
             draw_wipe_handle(app)
-        is_on_axis = draw_axes(app, seen)
+        is_on_axis = click_axes(app, seen)
         imgui.set_cursor_screen_pos(here)  # drags may begin next to the picture, too
         imgui.invisible_button("picture", ImVec2(max(room.x, 1), max(room.y, 1)), _EVERY_BUTTON)
         _mouse(app, here, room)
