@@ -95,15 +95,26 @@ def crossing(lab: Lab) -> Sweep:
     offsets = np.arange(SIDE) + 0.5 - SIDE / 2
     outline = radius / math.sqrt(AWAY**2 - radius**2) / math.tan(math.radians(20)) * SIDE / 2
     inside = np.hypot(*np.meshgrid(offsets, offsets)) < outline - 1
-    truths = truths_of(lab, scene(0.0))
+    return error_on(lab, "ball", "the ball", scene, inside)
+
+
+def error_on(
+    lab: Lab, thing: str, mover: str, scene_at: Callable[[float], Scene], inside: Any
+) -> Sweep:
+    """Error where a thing is seen at the end, by the speed of `mover`, itself or a part of it.
+
+    `scene_at` has the scene with the mover some scene units before its end; `inside`, (SIDE, SIDE),
+    are the pixels that show the thing then.
+    """
+    truths = _truths(lab, scene_at(0.0))
     errors: dict[str, list[float]] = {name: [] for name in (NAIVE, *MODES)}
     for pixels in SPEEDS:
         places = [(frame - FRAMES + 1) * pixels * TALL / SIDE for frame in range(FRAMES)]
-        moves = Frames("crossing", tuple(map(scene, places)))
-        add_errors(lab, moves, truths, errors, 1, inside)
-    return against_reset(
-        "speed of the ball, in pixels a frame",
-        f"relative RMS error on the ball, after {FRAMES} frames of one sample",
+        moves = Frames(thing, tuple(map(scene_at, places)))
+        _add_errors(lab, moves, truths, errors, 1, inside)
+    return _against_reset(
+        f"speed of {mover}, in pixels a frame",
+        f"relative RMS error on the {thing}, after {FRAMES} frames of one sample",
         SPEEDS,
         errors,
     )
@@ -116,9 +127,9 @@ def _sideways(lab: Lab, scene: Scene) -> Sweep:
         step = pixels * TALL / SIDE
         places = [(frame - FRAMES + 1) * step for frame in range(FRAMES)]
         moves = Frames("pan", tuple(_aside(scene, place) for place in places))
-        truths = truths_of(lab, moves.scenes[-1])
-        add_errors(lab, moves, truths, errors, SAMPLES)
-    return against_reset(
+        truths = _truths(lab, moves.scenes[-1])
+        _add_errors(lab, moves, truths, errors, SAMPLES)
+    return _against_reset(
         "speed of the camera, in pixels a frame",
         f"relative RMS error after {FRAMES} frames",
         SPEEDS,
@@ -170,7 +181,7 @@ def _lit(lab: Lab, factors: tuple[float, ...], lights: Callable[[float], Lights]
         {"floor": matte(0.7), "matte": matte(0.5), "lamp": lamp(9.0)},
         {"position": [0, 1.2, 3.0], "look_at": [0, 0.4, 0], "fov": 40},
     )
-    truths = truths_of(lab, scene)
+    truths = _truths(lab, scene)
     errors: dict[str, list[float]] = {mode: [] for mode in MODES}
     for factor in factors:
         dimmed = {f: scene.model_copy(update={"lights": {"lamp": f}}) for f in lights(factor)}
@@ -201,14 +212,14 @@ def uncovered(lab: Lab) -> Sweep:
         {"near": matte(0.3), "far": matte(0.8), "lamp": lamp(9.0)},
         {"position": [0, 0, 0], "look_at": [0, 0, -3], "fov": 40},
     )
-    truths = truths_of(lab, scene)
+    truths = _truths(lab, scene)
     errors: dict[str, list[float]] = {name: [] for name in (NAIVE, *MODES)}
     for width in BANDS:
         band = np.s_[:, SIDE // 2 : SIDE // 2 + width]
         aside = width / SIDE * 2 * math.tan(math.radians(20)) * 3 / 2
         moves = Frames("pan", (*[_aside(scene, -aside)] * BEFORE, scene))
-        add_errors(lab, moves, truths, errors, 1, band)
-    return against_reset(
+        _add_errors(lab, moves, truths, errors, 1, band)
+    return _against_reset(
         "width of what is uncovered, in pixels",
         "relative RMS error there, after one sample",
         BANDS,
@@ -216,7 +227,7 @@ def uncovered(lab: Lab) -> Sweep:
     )
 
 
-def add_errors(
+def _add_errors(
     lab: Lab,
     moves: Frames,
     truths: list[Any],
@@ -236,7 +247,7 @@ def add_errors(
         errors[name].append(_root(found))
 
 
-def against_reset(
+def _against_reset(
     parameter: str, measure: str, x: Sequence[float], errors: dict[str, list[float]]
 ) -> Sweep:
     """A sweep whose promise is an error that is hardly above that of `reset`."""
@@ -264,7 +275,7 @@ def _shown(lab: Lab, moves: Frames, way: Way, seed: int, samples: int = SAMPLES)
     return [*play(moves, Played(settings, way), lab.context, samples)]
 
 
-def truths_of(lab: Lab, scene: Scene) -> list[Any]:
+def _truths(lab: Lab, scene: Scene) -> list[Any]:
     """Two renders, whose noise is independent."""
     count = lab.count(TRUE, 512)
     return [

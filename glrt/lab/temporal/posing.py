@@ -5,28 +5,23 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from glrt.analysis.motion.sequences import Sequence as Frames
 from glrt.lab.scenes import lamp, matte, plane, scene_of, sphere
 from glrt.lab.sweep import Lab, Sweep
 from glrt.lab.temporal.moving import (
     AWAY,
     FRAMES,
-    MODES,
-    NAIVE,
     SIDE,
     SPEEDS,
     TALL,
-    add_errors,
-    against_reset,
-    truths_of,
+    error_on,
 )
 from glrt.scene.files.named_meshes import MeshFile, mesh_of_arrays
 from glrt.scene.meshes.triangle_meshes import TriangleMesh
 from glrt.scene.scene import Scene
 
 HALF, CELLS = 0.8, 8  # of the banner: half an edge in scene units, cells along it
-LAST = 16.0 * max(SPEEDS)  # the moment at which the banner is upright
-PIXEL = TALL / SIDE  # scene units of the banner
+PIXEL = TALL / SIDE  # in scene units, where the banner is
+LAST = FRAMES * max(SPEEDS) * PIXEL  # the moment at which the banner is upright
 
 Array = NDArray[np.float64]
 
@@ -46,11 +41,11 @@ class Leaning:
         return LAST
 
     def at(self, name: str | None, moment: float) -> TriangleMesh:
-        """Return the banner: its upper edge has gone a pixel aside for each unit before LAST."""
+        """Return the banner: its upper edge is a unit aside for each unit before LAST."""
         del name
         if moment not in self.made:
             vertices = self.upright.vertices.copy()
-            vertices[:, 0] += (moment - LAST) * PIXEL * np.maximum(vertices[:, 1], 0) / HALF
+            vertices[:, 0] += (moment - LAST) * np.maximum(vertices[:, 1], 0) / HALF
             self.made[moment] = replace(self.upright, vertices=vertices)
         return self.made[moment]
 
@@ -62,8 +57,8 @@ def bending(lab: Lab) -> Sweep:
     """
     file = _banner()
 
-    def scene(moment: float) -> Scene:
-        banner = {"shape": "mesh", "file": file, "material": "cloth", "time": moment}
+    def scene(place: float) -> Scene:
+        banner = {"shape": "mesh", "file": file, "material": "cloth", "time": LAST + place}
         return scene_of(
             [plane([0, 0, -1], [0, 0, 1], "wall"), banner, sphere([0.4, 2, 2.5], 0.5, "lamp")],
             {"wall": matte(0.5), "cloth": matte(0.9), "lamp": lamp(9.0)},
@@ -73,18 +68,7 @@ def bending(lab: Lab) -> Sweep:
     offsets = (np.arange(SIDE) + 0.5 - SIDE / 2) * PIXEL
     across, down = np.meshgrid(offsets, offsets)
     inside = (np.abs(across) < HALF - PIXEL) & (np.abs(down) < HALF - PIXEL)
-    truths = truths_of(lab, scene(LAST))
-    errors: dict[str, list[float]] = {name: [] for name in (NAIVE, *MODES)}
-    for pixels in SPEEDS:
-        moments = [LAST - (FRAMES - 1 - frame) * pixels for frame in range(FRAMES)]
-        moves = Frames("bending", tuple(map(scene, moments)))
-        add_errors(lab, moves, truths, errors, 1, inside)
-    return against_reset(
-        "speed of the upper edge, in pixels a frame",
-        f"relative RMS error on the banner, after {FRAMES} frames of one sample",
-        SPEEDS,
-        errors,
-    )
+    return error_on(lab, "banner", "the upper edge", scene, inside)
 
 
 def _banner() -> MeshFile:
