@@ -14,7 +14,6 @@ uniform sampler2D motion;
 uniform int moved;
 uniform sampler2D deformed;
 uniform sampler2D deformed_normal;
-uniform bool has_deformed;
 
 #include "passes/reprojection.glsl"
 #include "temporal/ataa.glsl"

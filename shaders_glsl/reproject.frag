@@ -14,7 +14,6 @@ uniform sampler2D motion;           // objects that moved (glrt/rendering/histor
 uniform int moved;                  // its rows
 uniform sampler2D deformed;         // places before of deformed surfaces (deformed.frag)
 uniform sampler2D deformed_normal;  // their normals
-uniform bool has_deformed;
 
 #include "passes/reprojection.glsl"
 

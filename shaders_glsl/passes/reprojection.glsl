@@ -36,7 +36,7 @@ vec3 by_texels(int row, int first, vec4 vector) {
 
 // Whether the surface at a texel of this view is of a triangle that was deformed.
 bool is_deformed(ivec2 texel) {
-    return has_deformed && texelFetch(deformed, texel, 0).w > 0.0;
+    return HAS_DEFORMED && texelFetch(deformed, texel, 0).w > 0.0;
 }
 
 // A surface relative to the eye before; a direction where the ray meets nothing, which is infinitely far.

@@ -18,8 +18,8 @@ void main() { data.rgb = expose_and_encode(data.rgb, data.a, int(data.g)); }
 """
 DISPLAYS = [
     *("display", "weighting", "false_colors", "aov_view", "first_surface", "magnify"),
-    *("edges", "reproject", "evidence", "fade", "taa", "ataa_mask", "ataa"),
-    *("bring_models", "reconstruct", "predict", "predictions", "upsample"),
+    *("edges", "evidence", "fade", "taa", "ataa"),
+    *("reconstruct", "predict", "predictions", "upsample"),
 ]
 DISPLAY_STAGES = {"display.vert": VERTEX, "display.frag": FRAGMENT}
 TEMPORAL = (
@@ -77,6 +77,17 @@ def test_the_display_compiles_without_a_warning(ctx: moderngl.Context, name: str
     assert ctx.version_code >= 430
     stages = [(VERTEX, Source("display.vert").text), (FRAGMENT, Source(f"{name}.frag").text)]
     assert warnings(*stages) == []
+
+
+@pytest.mark.parametrize("name", ["reproject", "ataa_mask", "bring_models"])
+@pytest.mark.parametrize("has_deformed", [False, True], ids=["stiff", "deformed"])
+def test_passes_to_another_view_compile_without_a_warning(
+    ctx: moderngl.Context, name: str, has_deformed: bool
+) -> None:
+    assert ctx.version_code >= 430
+    constants = {"HAS_DEFORMED": has_deformed}
+    shader = Source(f"{name}.frag", constants).text
+    assert warnings((VERTEX, Source("display.vert").text), (FRAGMENT, shader)) == []
 
 
 @pytest.mark.parametrize("name", ["probe_balls", "deformed"])

@@ -1,7 +1,7 @@
 """Views that differ by a camera, and what was shown of them, for tests of temporal modes."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
@@ -15,8 +15,10 @@ from glrt.gpu.context import Context
 from glrt.rendering.history.drawn_pass import DrawnPass
 from glrt.rendering.history.gbuffer import SurfacePass, Surfaces
 from glrt.rendering.history.reprojection import Limits, Reprojection
+from glrt.rendering.history.temporal import Mode, Temporal, Way
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
+from glrt.settings import settings_for
 from tests.support.builders import MATTE, lamp, plane, quad, scene_of
 
 Floats = NDArray[Any]
@@ -82,6 +84,27 @@ def brought(
             texture.release()
             reprojection.release()
     return result
+
+
+def samples_shown(
+    scenes: Sequence[Scene], mode: Mode, size: tuple[int, int], context: Context
+) -> Floats:
+    """Samples that each pixel stands for, (H, W), after a sample of each scene in turn."""
+    settings = settings_for(scenes[0].render, width=size[0], height=size[1], bounces=2)
+    renderer, temporal = Renderer(scenes[0], settings, context), Temporal(context.gl, Way(mode))
+    for scene in scenes:
+        temporal.leave(renderer)
+        renderer.update(scene)
+        temporal.arrive(renderer)
+        renderer.render(1)
+    told = temporal.told(renderer, "history")
+    assert told
+    assert told.texture
+    with context.gl:
+        counts: Floats = read_texture(told.texture)[..., 3].copy()
+    temporal.release()
+    renderer.release()
+    return counts
 
 
 def noise(size: tuple[int, int], seed: int = 0) -> Floats:

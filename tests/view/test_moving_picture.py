@@ -3,7 +3,6 @@
 from collections.abc import Callable, Iterator
 from typing import Any
 
-import moderngl
 import pytest
 
 from glrt.analysis.motion.playing import read_texture
@@ -87,9 +86,9 @@ def test_the_first_edit_waits_for_no_shader(
     settings = settings_for(scene.render, width=24, height=16, bounces=2, samples=8)
     work = DrawnPass._compile
 
-    def noted(self: DrawnPass) -> moderngl.Program:
+    def noted(self: DrawnPass, chosen: tuple[bool, ...]) -> Any:
         compiled.append(self._shader)
-        return work(self)
+        return work(self, chosen)
 
     monkeypatch.setattr(DrawnPass, "_compile", noted)
     for prepares in (True, False):

@@ -15,7 +15,7 @@ from glrt.rendering.history.drawn_pass import DrawnPass
 from glrt.rendering.history.gbuffer import Surfaces
 from glrt.rendering.history.history_filter import Fresh
 from glrt.rendering.history.listed_pixels import ListedPixels
-from glrt.rendering.history.reprojection import between
+from glrt.rendering.history.reprojection import CONSTANTS, between
 from glrt.rendering.history.taa import PUBLISHED, Taa
 from glrt.rendering.renderer import Renderer
 from glrt.settings import settings_for
@@ -72,7 +72,8 @@ class Ataa(Taa):
         super().__init__(gl)
         self.samples = samples
         self.traced = 0  # number of pixels in this view
-        self._find, self._compose = DrawnPass(gl, "ataa_mask.frag"), DrawnPass(gl, "ataa.frag")
+        self._find = DrawnPass(gl, "ataa_mask.frag", CONSTANTS)
+        self._compose = DrawnPass(gl, "ataa.frag")
         self._more = MoreSamples(gl)
         self._mask, self._composed = Canvas(gl, "f4"), Canvas(gl, "f4")
         self._before: Surfaces | None = None

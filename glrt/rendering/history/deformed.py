@@ -14,7 +14,7 @@ from glrt.gpu.canvas import Canvas
 from glrt.gpu.glsl import Source
 from glrt.gpu.program import drawing
 from glrt.packing.scene_arrays import screen_axes
-from glrt.packing.shapes import in_order
+from glrt.rendering.history.motion import edited_objects
 from glrt.scene.scene import Scene
 from glrt.scene.shapes.mesh import Mesh
 from glrt.settings import Settings
@@ -43,14 +43,11 @@ class View(NamedTuple):
 
 def deformed_objects(now: Scene, before: Scene) -> list[Deformed]:
     """Return the meshes that have another pose than in `before`, with the triangles that moved."""
-    if now.objects is before.objects:
-        return []
-    pairs = zip(in_order(now), in_order(before), strict=False)
-    found = []
-    for number, (new, old) in enumerate(pairs):
+    found = list[Deformed]()
+    for number, new, old in edited_objects(now, before):
         if not isinstance(new, Mesh) or not isinstance(old, Mesh) or not _is_other_pose(new, old):
             continue
-        here, there = _corners(new), _corners(old)
+        here, there = (mesh.world_vertices[mesh.triangles.faces] for mesh in (new, old))
         if here.shape == there.shape:
             has_moved = (here != there).any(axis=(1, 2))
             found.append(Deformed(number, here[has_moved], there[has_moved]))
@@ -61,12 +58,6 @@ def _is_other_pose(new: Mesh, old: Mesh) -> bool:
     """Whether two meshes show the same triangles in different poses."""
     same = new.file.sha256 == old.file.sha256 and (new.part, new.variant) == (old.part, old.variant)
     return same and (new.animation, new.time) != (old.animation, old.time)
-
-
-def _corners(mesh: Mesh) -> Array:
-    triangles = mesh.triangles
-    corners: Array = (triangles.vertices @ mesh.linear.T + mesh.origin)[triangles.faces]
-    return corners
 
 
 class DeformedPass:

@@ -13,12 +13,15 @@ Textures = Mapping[str, moderngl.Texture | Sequence[moderngl.Texture]]  # by sam
 
 
 class DrawnPass:
-    """A fragment shader that draws over all pixels of a framebuffer."""
+    """A fragment shader that draws over all pixels of a framebuffer.
 
-    def __init__(self, gl: moderngl.Context, shader: str) -> None:
+    Constants of the shader are either true or false; it is compiled for the values that are drawn.
+    """
+
+    def __init__(self, gl: moderngl.Context, shader: str, constants: Sequence[str] = ()) -> None:
         """Nothing is compiled before it is needed; `shader` is an entry file."""
-        self._gl, self._shader = gl, shader
-        self._program: moderngl.Program | None = None
+        self._gl, self._shader, self._constants = gl, shader, constants
+        self._programs: dict[tuple[bool, ...], tuple[moderngl.Program, moderngl.VertexArray]] = {}
 
     def draw(
         self,
@@ -26,8 +29,12 @@ class DrawnPass:
         textures: Textures,
         values: Mapping[str, Any],
     ) -> None:
-        """Draw over `target`; values for uniforms that the compiler dropped are ignored."""
-        program = self._program or self._compile()
+        """Draw over `target`, by values of uniforms and constants.
+
+        Those of uniforms that the compiler dropped are ignored.
+        """
+        chosen = tuple(bool(values[name]) for name in self._constants)
+        program, quad = self._programs.get(chosen) or self._compile(chosen)
         unit = 0
         for name, given in textures.items():
             if name not in program:
@@ -42,17 +49,18 @@ class DrawnPass:
             if name in program:
                 program[name] = value
         with self._gl.scope(target, moderngl.NOTHING):
-            self._quad.render(moderngl.TRIANGLE_STRIP, vertices=4)
+            quad.render(moderngl.TRIANGLE_STRIP, vertices=4)
 
     def release(self) -> None:
         """Release all OpenGL resources."""
-        if self._program:
-            self._quad.release()
-            self._program.release()
-        self._program = None
+        for program, quad in self._programs.values():
+            quad.release()
+            program.release()
+        self._programs = {}
 
-    def _compile(self) -> moderngl.Program:
-        stages = (Source(name, version=_VERSION) for name in ("display.vert", self._shader))
-        self._program = drawing(self._gl, *stages)
-        self._quad = self._gl.vertex_array(self._program, [])
-        return self._program
+    def _compile(self, chosen: tuple[bool, ...]) -> tuple[moderngl.Program, moderngl.VertexArray]:
+        constants = dict(zip(self._constants, chosen, strict=True))
+        stages = Source("display.vert", None, _VERSION), Source(self._shader, constants, _VERSION)
+        program = drawing(self._gl, *stages)
+        self._programs[chosen] = program, self._gl.vertex_array(program, [])
+        return self._programs[chosen]

@@ -4,6 +4,7 @@ An object moves by the affine map between the frames that its shape has in both 
 and grow, too. Posed meshes have no such map: see deformed.py.
 """
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import moderngl
@@ -28,15 +29,20 @@ class Moved(NamedTuple):
     to_before: Array  # (3, 4), from a point of it in this scene to the same point in the one before
 
 
+def edited_objects(now: Scene, before: Scene) -> Iterator[tuple[int, Shape, Shape]]:
+    """Yield the number of each object that is not the one of `before`, with the new and the old."""
+    if now.objects is before.objects:
+        return
+    pairs = zip(in_order(now), in_order(before), strict=False)
+    for number, (new, old) in enumerate(pairs):
+        if new is not old:
+            yield number, new, old
+
+
 def moved_objects(now: Scene, before: Scene) -> list[Moved]:
     """Return the objects that moved since `before`, by number; no object if both differ in them."""
-    if now.objects is before.objects:
-        return []
-    pairs = zip(in_order(now), in_order(before), strict=False)
-    found = []
-    for number, (new, old) in enumerate(pairs):
-        if new is not old and (to_before := _map(new, old)) is not None:
-            found.append(Moved(number, to_before))
+    maps = ((number, _map(new, old)) for number, new, old in edited_objects(now, before))
+    found = [Moved(number, to_before) for number, to_before in maps if to_before is not None]
     return found if len(found) <= MOST else []
 
 

@@ -28,6 +28,7 @@ class Limits(NamedTuple):
 
 
 USUAL = Limits()
+CONSTANTS = ("HAS_DEFORMED",)  # of passes/reprojection.glsl
 
 
 def shares_objects(one: Scene, other: Scene) -> bool:
@@ -36,7 +37,10 @@ def shares_objects(one: Scene, other: Scene) -> bool:
 
 
 def between(now: Surfaces, before: Surfaces) -> tuple[dict[str, moderngl.Texture], dict[str, Any]]:
-    """Textures and uniforms for passes/reprojection.glsl; both G-buffers must hold a view."""
+    """Textures, uniforms and CONSTANTS of passes/reprojection.glsl.
+
+    Both G-buffers must hold a view.
+    """
     assert now.scene
     assert before.scene
     assert before.settings
@@ -63,7 +67,7 @@ def between(now: Surfaces, before: Surfaces) -> tuple[dict[str, moderngl.Texture
         "before_origin": np.array(settings.crop[:2] if settings.crop else (0, 0)),
     }
     found: dict[str, Any] = {name: tuple(map(float, value)) for name, value in values.items()}
-    moved = {"moved": motion.height if motion else 0, "has_deformed": bool(deformed)}
+    moved = {"moved": motion.height if motion else 0, "HAS_DEFORMED": bool(deformed)}
     return textures, {**found, **moved}
 
 
@@ -73,7 +77,7 @@ class Reprojection:
     def __init__(self, gl: moderngl.Context, limits: Limits = USUAL) -> None:
         """Nothing is compiled or allocated before it is needed."""
         self.limits = limits
-        self._pass = DrawnPass(gl, "reproject.frag")
+        self._pass = DrawnPass(gl, "reproject.frag", CONSTANTS)
         self._canvases = [Canvas(gl, "f4"), Canvas(gl, "f4")]
 
     def bring(

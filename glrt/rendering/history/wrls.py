@@ -13,7 +13,7 @@ from glrt.gpu.context import checked
 from glrt.rendering.history.drawn_pass import DrawnPass
 from glrt.rendering.history.gbuffer import Surfaces
 from glrt.rendering.history.history_filter import Fresh
-from glrt.rendering.history.reprojection import between
+from glrt.rendering.history.reprojection import CONSTANTS, between
 
 Predictor = Literal["published", "delayed"]
 
@@ -27,7 +27,7 @@ class Wrls:
         """Nothing is compiled or allocated before it is needed."""
         self._gl = gl
         self._predictor = predictor
-        self._bring = DrawnPass(gl, "bring_models.frag")
+        self._bring = DrawnPass(gl, "bring_models.frag", CONSTANTS)
         self._reconstruct = DrawnPass(gl, "reconstruct.frag")
         self._predict = DrawnPass(gl, "predict.frag")
         self._smooth = DrawnPass(gl, "predictions.frag")

@@ -16,13 +16,10 @@ from glrt.analysis.motion.playing import read_texture
 from glrt.gpu.context import Context
 from glrt.image.sources import load
 from glrt.rendering.history.deformed import deformed_objects
-from glrt.rendering.history.reprojection import Reprojection
-from glrt.rendering.history.temporal import Temporal, Way
-from glrt.rendering.renderer import Renderer
+from glrt.rendering.history.reprojection import Reprojection, between
 from glrt.scene.scene import Scene
-from glrt.settings import settings_for
 from tests.support.gltf_files import Builder
-from tests.support.moving import FOV, UNLIMITED, view
+from tests.support.moving import FOV, UNLIMITED, samples_shown, view
 
 Array = NDArray[Any]
 
@@ -94,14 +91,9 @@ def own(scene: Scene, position: Array, w: float) -> Array:
 def places_before(now: Scene, before: Scene, context: Context) -> tuple[Array, ...]:
     """Surfaces of the pixels of `now`, the same before, and their normals; (H, W, 4) each."""
     with view(before, context, SIZE) as old, view(now, context, SIZE) as here, context.gl:
-        reprojection = Reprojection(context.gl, UNLIMITED)
-        texture = context.gl.texture(SIZE, 4, bytes(16 * SIZE[0] * SIZE[1]), dtype="f4")
-        reprojection.bring(here, old, texture)
-        found = [here.position, *here.deformed._canvas.textures]
-        arrays = tuple(read_texture(it).copy() for it in found)
-        texture.release()
-        reprojection.release()
-    return arrays
+        textures, _ = between(here, old)
+        names = "position", "deformed", "deformed_normal"
+        return tuple(read_texture(textures[name]).copy() for name in names)
 
 
 @pytest.mark.parametrize("eye", [0.0, 0.05], ids=["a still camera", "a camera that moves"])
@@ -166,23 +158,10 @@ def test_only_triangles_in_another_pose_are_drawn(folder: Path) -> None:
     assert number >= 0
 
 
-@pytest.mark.parametrize("mode", ["reproject", "taa", "wrls"])
+@pytest.mark.parametrize("mode", ["reproject", "taa", "ataa", "wrls"])
 def test_a_sheet_that_bends_keeps_its_samples(folder: Path, context: Context, mode: Any) -> None:
     """Four frames of one sample: the picture stands for more than the last one."""
     scenes = [at(folder, w) for w in (0.1, 0.4, 0.7, 1.0)]
-    settings = settings_for(scenes[0].render, width=SIZE[0], height=SIZE[1], bounces=2)
-    renderer, temporal = Renderer(scenes[0], settings, context), Temporal(context.gl, Way(mode))
-    for scene in scenes:
-        temporal.leave(renderer)
-        renderer.update(scene)
-        temporal.arrive(renderer)
-        renderer.render(1)
-    told = temporal.told(renderer, "history")
-    assert told
-    assert told.texture
-    with context.gl:
-        counts = read_texture(told.texture)[..., 3]
+    counts = samples_shown(scenes, mode, SIZE, context)
     middle = counts[16:32, 22:42]
     assert (middle > 1.5).mean() > 0.98
-    temporal.release()
-    renderer.release()

@@ -10,14 +10,11 @@ from glrt.analysis.motion.playing import read_texture
 from glrt.gpu.context import Context
 from glrt.rendering.history.motion import MOST, moved_objects, table_of
 from glrt.rendering.history.reprojection import Reprojection
-from glrt.rendering.history.temporal import Temporal, Way
-from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 from glrt.scene.shapes.kinds import Shape
-from glrt.settings import settings_for
 from glrt.view.viewport.transform import scaled, shifted, turned
 from tests.support.builders import MATTE, box, cylinder, disk, plane, quad, scene_of, sphere
-from tests.support.moving import FOV, UNLIMITED, brought, noise, view
+from tests.support.moving import FOV, UNLIMITED, brought, noise, samples_shown, view
 
 SIZE = (32, 24)
 PIXEL = 1.0 / SIZE[1]  # at distance 1, in scene units
@@ -168,19 +165,6 @@ def _own_coordinates(scene: Scene | None, position: Array) -> Array:
 def test_a_moving_ball_keeps_its_samples(context: Context, mode: Any) -> None:
     """Five frames of one sample: in its middle the picture stands for more than the last one."""
     scenes = [one(sphere([n * 3 * PIXEL, 0, 0], 0.3, "matte")) for n in range(-4, 1)]
-    settings = settings_for(scenes[0].render, width=SIZE[0], height=SIZE[1], bounces=2)
-    renderer, temporal = Renderer(scenes[0], settings, context), Temporal(context.gl, Way(mode))
-    for scene in scenes:
-        temporal.leave(renderer)
-        renderer.update(scene)
-        temporal.arrive(renderer)
-        renderer.render(1)
-    told = temporal.told(renderer, "history")
-    assert told
-    assert told.texture
-    with context.gl:
-        counts = read_texture(told.texture)[..., 3]
+    counts = samples_shown(scenes, mode, SIZE, context)
     middle = counts[10:14, 14:18]
     assert (middle > 1.5).all()
-    temporal.release()
-    renderer.release()
