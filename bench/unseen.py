@@ -14,6 +14,7 @@ import json
 import sys
 import time
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -55,6 +56,7 @@ UNHASHED = ("__pycache__",)
 QUARTER = 4  # times as many samples in the renders that count as in those of the slope
 SLOPE_SEED = 500  # the first one of the renders of a quarter of the samples
 TRIAL_SECONDS = 1.0
+TRIAL_SIZE = 256  # pixels on a side, at most, of Mitsuba's trial: 64 samples of more take minutes
 LEVEL_SECONDS = 4.0
 
 
@@ -105,10 +107,13 @@ def measure_scene(
     seed: int = 0,
 ) -> Result:
     """Render a scene that is called `about`; RenderError if a renderer refuses it."""
-    own = ours(scene, size)
+    own, small = ours(scene, size), min(size, TRIAL_SIZE)
     with started({GLRT: commands[GLRT]}) as peers:
         level = level_of(peers, own, LEVEL_SECONDS)
-    entries = own, best_mitsuba(commands, scene, size, level, TRIAL_SECONDS)
+        trial_level = level_of(peers, ours(scene, small), LEVEL_SECONDS)
+    rival = best_mitsuba(commands, scene, small, trial_level, TRIAL_SECONDS)
+    rival = replace(rival, request=replace(rival.request, width=size, height=size))
+    entries = own, rival
     alone = [pace_alone(commands, entry, seconds) for entry in entries]
     few, many = _runs(commands, entries, rounds, seconds)
     return result(seed, about, few, many, alone, level)

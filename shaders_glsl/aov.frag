@@ -6,9 +6,10 @@ uniform sampler2D source_mean;             // as in aov.comp
 uniform sampler2D source_variance;
 uniform sampler2D source_second_mean;
 uniform sampler2D source_second_variance;
+uniform sampler2D source_block;
 layout(location = 0) out vec4 target_mean;
 layout(location = 1) out vec4 target_variance;
-layout(location = 2) out vec4 target_second_mean;
+layout(location = 2) out vec4 target_second_mean;  // where IN_PIECES: target_block
 layout(location = 3) out vec4 target_second_variance;
 
 void main() {
@@ -16,7 +17,10 @@ void main() {
     Pixel first = empty_pixel();
     Pixel second = empty_pixel();
     if (frame.is_empty == 0) {
-        first = pixel_of(texelFetch(source_mean, texel, 0), texelFetch(source_variance, texel, 0));
+        vec4 block = vec4(0.0);
+        if (IN_PIECES) block = texelFetch(source_block, texel, 0);
+        vec4 mean = texelFetch(source_mean, texel, 0);
+        first = pixel_of(mean, texelFetch(source_variance, texel, 0), block);
         if (SECOND_AOV != NO_AOV) {
             second = pixel_of(texelFetch(source_second_mean, texel, 0), texelFetch(source_second_variance, texel, 0));
         }
@@ -24,6 +28,6 @@ void main() {
     add_aovs(first, second, frame.origin + texel);
     target_mean = vec4(first.mean, first.count);
     target_variance = vec4(first.variance, first.observations);
-    target_second_mean = vec4(second.mean, second.count);
+    target_second_mean = IN_PIECES ? vec4(first.block, first.begun) : vec4(second.mean, second.count);
     target_second_variance = vec4(second.variance, second.observations);
 }

@@ -1,5 +1,5 @@
 // Adds samples to terms of light, as trace.comp does for radiance. The terms that are kept lie side by side. A dispatch
-// adds whole observations, so that none is carried from one to the next.
+// adds whole observations, so that none is carried from one to the next, except IN_PIECES.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -9,8 +9,10 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(rgba32f) uniform readonly image2D source_mean;      // a: number of its samples
 layout(rgba32f) uniform readonly image2D source_variance;  // a: number of observations
+layout(rgba32f) uniform readonly image2D source_block;     // a: its samples, where IN_PIECES
 layout(rgba32f) uniform writeonly image2D target_mean;
 layout(rgba32f) uniform writeonly image2D target_variance;
+layout(rgba32f) uniform writeonly image2D target_block;
 
 layout(std430) buffer Lost { uint lost_samples; };  // as in trace.comp
 
@@ -29,7 +31,9 @@ void load_terms(ivec2 texel) {
         term_pixels[i] = empty_pixel();
         if (!is_kept(i) || frame.is_empty != 0) continue;
         ivec2 place = place_of(texel, i);
-        term_pixels[i] = pixel_of(imageLoad(source_mean, place), imageLoad(source_variance, place));
+        vec4 block = vec4(0.0);
+        if (IN_PIECES) block = imageLoad(source_block, place);
+        term_pixels[i] = pixel_of(imageLoad(source_mean, place), imageLoad(source_variance, place), block);
     }
 }
 
@@ -39,6 +43,7 @@ void store_terms(ivec2 texel) {
         Pixel pixel = term_pixels[i];
         imageStore(target_mean, place_of(texel, i), vec4(pixel.mean, pixel.count));
         imageStore(target_variance, place_of(texel, i), vec4(pixel.variance, pixel.observations));
+        if (IN_PIECES) imageStore(target_block, place_of(texel, i), vec4(pixel.block, pixel.begun));
     }
 }
 

@@ -5,8 +5,10 @@
 
 uniform sampler2D source_mean;  // as in terms.comp
 uniform sampler2D source_variance;
+uniform sampler2D source_block;
 layout(location = 0) out vec4 target_mean;
 layout(location = 1) out vec4 target_variance;
+layout(location = 2) out vec4 target_block;
 
 const int KEPT_TERM = findLSB(LIGHT_TERMS);
 
@@ -15,11 +17,14 @@ void main() {
     term_pixels[KEPT_TERM] = empty_pixel();
     if (frame.is_empty == 0) {
         vec4 mean = texelFetch(source_mean, texel, 0);
-        term_pixels[KEPT_TERM] = pixel_of(mean, texelFetch(source_variance, texel, 0));
+        vec4 block = vec4(0.0);
+        if (IN_PIECES) block = texelFetch(source_block, texel, 0);
+        term_pixels[KEPT_TERM] = pixel_of(mean, texelFetch(source_variance, texel, 0), block);
     }
     Pixel whole = empty_pixel();
     add_samples(whole, frame.origin + texel);
     Pixel kept = term_pixels[KEPT_TERM];
     target_mean = vec4(kept.mean, kept.count);
     target_variance = vec4(kept.variance, kept.observations);
+    target_block = vec4(kept.block, kept.begun);
 }

@@ -131,8 +131,8 @@ _WORKS: dict[Way, tuple[Way, ...]] = {
         *(Way.TERMS, Way.TIME, Way.HYBRID, Way.MARCH, Way.NET, Way.ADAPTIVE),
     ),
     Way.SHUTTER: (
-        *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.FRAGMENT),
-        *(Way.CLASSIC, Way.HYBRID, Way.MARCH, Way.PILOT, Way.TIME, Way.ERROR),
+        *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.TERMS, Way.FRAGMENT),
+        *(Way.CLASSIC, Way.HYBRID, Way.MARCH, Way.PILOT, Way.DENOISE, Way.TIME, Way.ERROR),
     ),
     Way.CLUSTER: (
         *(Way.CROP, Way.AOV, Way.TERMS, Way.FRAGMENT, Way.INDEPENDENT, Way.NET, Way.CLASSIC),
@@ -202,15 +202,12 @@ _REFUSED: dict[frozenset[Way], str] = {
 _REFUSED |= {
     frozenset({Way.SHUTTER, way}): f"{why}: close the shutter by `shutter = 0`"
     for way, why in {
-        Way.AOV: "AOVs are gathered for many samples at once, which see one time",
-        Way.TERMS: "AOVs are gathered for many samples at once, which see one time",
         Way.INDEPENDENT: "its samples share no even times, so that all pixels would err alike",
         Way.NET: "its samples share no even times, so that all pixels would err alike",
         Way.LAYERS: "the window's film shows one time",
         Way.PROBES: "probes hold the light of one time",
         Way.REUSE: "probes hold the light of one time",
         Way.PARTICLES: "particles are followed for many samples at once, which see one time",
-        Way.DENOISE: "the AOVs that guide it show one time",
         Way.AUTO: "it measures a picture of one time",
         Way.ADAPTIVE: "pixels of other counts would see other times",
     }.items()

@@ -41,6 +41,7 @@ class Plan:
     layering: Layering
     weights: Weights = (ONE,)
     first_sample: int = 0  # above 0 for a part of a render
+    is_blurred: bool = False  # each sample sees a scene of its own, and has a plan of its own
 
     @property
     def scene(self) -> Scene:

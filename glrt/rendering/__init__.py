@@ -25,6 +25,7 @@ Modules, each importing only what stands above it:
 - progress: read-only properties of a renderer
 - first_half: the first half of a render, for a denoiser
 - shutter: the scene of each sample while the shutter is open
+- aov_places: AOVs read back from films
 - renderer: the renderer: a scene and settings to samples
 - history: samples of earlier views while the camera moves
 - stopping: renders up to a limit of samples, time or error

@@ -44,6 +44,13 @@ class Progress:
         return self.film.samples
 
     @property
+    def next_sample(self) -> int:
+        """The number of the sample that is next: of AOVs that lag behind, or of the picture."""
+        aovs = self._tracer.aovs
+        lags = aovs.is_behind(self.samples)
+        return self.film.first_sample + (aovs.samples if lags else self.samples)
+
+    @property
     def shown(self) -> tuple[int, int]:
         """Samples per pixel of the picture, and of its AOVs."""
         return self.samples, self._tracer.aovs.samples

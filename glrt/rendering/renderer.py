@@ -173,6 +173,7 @@ class Renderer(Progress):
             while samples:
                 together = self._followed(samples)
                 self._tracer.step(together)
+                self._complete()
                 samples -= together
 
     def advance(self, seconds: float, samples: int | None = None) -> bool:
@@ -218,6 +219,7 @@ class Renderer(Progress):
         self.probes.check()
         weights = weights or self.plan.weights
         with self.context.gl:
+            self._complete()
             aovs = self._tracer.aov_images()
             mean, noise, state = mixed(self.film, weights)
             waiting = self._tracer.with_particles(mean, noise, weights, waits=True)
@@ -277,9 +279,14 @@ class Renderer(Progress):
             together = self._followed(remaining)
             self._tracer.work_on(together, policy, seconds)
 
+    def _complete(self) -> None:
+        """Gather the AOVs of all samples, while each of these sees a scene of its own."""
+        while self._shutter.is_open and self._tracer.is_behind:
+            self._work(1, HEADLESS)
+
     def _followed(self, samples: int) -> int:
         """How many of `samples` see the scene that the driver now has for the first of them."""
-        if plan := self._shutter.next_plan(self.film.next_sample, self.plan):
+        if plan := self._shutter.next_plan(self.next_sample, self.plan):
             known, compiled = self.device_scene.seconds, self._tracer.switch.compile_seconds
             self._tracer, _ = self._tracer.replaced_for(plan, keeps_samples=True)
             self.plan = plan

@@ -7,8 +7,10 @@ independent: then errors are estimated as for a still. Without blocks, errors of
 would vary together more than `glrt compare` expects.
 """
 
+from dataclasses import replace
 from functools import lru_cache
 
+from glrt.core.errors import UsageError
 from glrt.plan.combinations import check_render
 from glrt.plan.facts import SceneFacts
 from glrt.plan.plan import Layering, Plan, prepare
@@ -18,6 +20,7 @@ from glrt.scene.scene import Scene
 from glrt.settings import Settings
 
 _MASK = 0xFFFFFFFF
+_EYES = 8  # parts of the time for which the shutter is open, to see whether a camera moves
 _CLOCK = 0x7A5C31E9  # keeps times apart from the random numbers of shaders
 
 
@@ -74,6 +77,12 @@ class Shutter:
         """Raise UsageError for options that a renderer cannot combine."""
         facts = SceneFacts(self._scene, self._apart)
         check_render(facts, self._settings, layering, is_part, is_fragment, self.is_open)
+        if self.is_open and "position" in self._settings.aov and len(set(self._eyes())) > 1:
+            raise UsageError(
+                "the AOV position and a camera that moves while the shutter is open do not go "
+                "together: positions are gathered relative to the camera. Leave position out of "
+                "--aov, or close the shutter by `shutter = 0`."
+            )
 
     def plan(self, layering: Layering, first_sample: int, before: Plan | None = None) -> Plan:
         """The plan to begin with, after `before` if it follows an edit.
@@ -83,13 +92,15 @@ class Shutter:
         seen = self._seen(first_sample)
         if before and not self.opens:
             return before.followed_by(*seen, layering, first_sample)
-        return prepare(*seen, layering, first_sample, self._own_trees())
+        plan = prepare(*seen, layering, first_sample, self._own_trees())
+        return replace(plan, is_blurred=self.is_open)
 
     def next_plan(self, sample: int, now: Plan) -> Plan | None:
         """The plan for a sample; None if it is that of the sample before. Errors as of `plan`."""
         if not self.is_open or sample == self._sample:
             return None
-        return prepare(*self._seen(sample), now.layering, now.first_sample, now.apart)
+        plan = prepare(*self._seen(sample), now.layering, now.first_sample, now.apart)
+        return replace(plan, is_blurred=True)
 
     def relit(self, plan: Plan, layering: Layering, before: "Shutter") -> Plan | None:
         """The plan with weights that show a change since `before`; None if it must be traced."""
@@ -105,6 +116,11 @@ class Shutter:
             return self._scene, self._settings
         still = self._scene.in_shutter(time_of(sample, self._settings))
         return still, with_phong_of(still, self._scene.moved, self._settings)
+
+    def _eyes(self) -> list[tuple[float, ...]]:
+        """Where the camera is at some of the times."""
+        shares = (number / _EYES for number in range(_EYES + 1))
+        return [tuple(self._scene.in_shutter(share).camera.position) for share in shares]
 
     def _own_trees(self) -> Apart:
         """Which meshes have a BVH of their own: large ones, too, if one moves."""

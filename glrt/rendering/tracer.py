@@ -100,9 +100,9 @@ class Tracer:
         keeps_shapes = is_same and after.device_scene.has_shapes_of(self.device_scene)
         if keeps_shapes and self.switch.uses_fast_kernel:
             after.bake()
-        for mine, its in ((self.film, after.film), (self.aovs, after.aovs)):
-            if mine is not its:
-                mine.release()
+        if self.film is not after.film:
+            self.film.release()
+        self.aovs.release(after.aovs)
         self.probes.release(after.probes)
         self._release_own()
         if not keeps_samples:
@@ -141,7 +141,7 @@ class Tracer:
         if settings.gathered != self.aovs.aovs:
             after = self._aovs_for(settings, self)
             after.restart(self._plan)
-            self.aovs.release()
+            self.aovs.release(after)
             self.aovs = after
 
     @property
@@ -168,22 +168,19 @@ class Tracer:
         """
         if not self.particles:
             return radiance, stderr, None
-        if waits or not self.particles.film.samples:
-            self._catch_up_particles()
+        self._catch_up_particles(waits)
         return self.particles.added_to(radiance, stderr, weights, first)
 
     @property
     def shown_particles(self) -> moderngl.Texture | None:
         """Texture of the light of particles: a mean over complete observations, or None."""
-        if not self.particles:
-            return None
-        if not self.particles.film.samples:
-            self._catch_up_particles()
-        return self.particles.film.sources["mean"]
+        self._catch_up_particles()
+        return self.particles.film.sources["mean"] if self.particles else None
 
-    def _catch_up_particles(self) -> None:
-        while self._lacks_particles:
-            self._work_behind(HEADLESS, math.inf)
+    def _catch_up_particles(self, waits: bool = False) -> None:
+        if waits or not (self.particles and self.particles.film.samples):
+            while self._lacks_particles:
+                self._work_behind(HEADLESS, math.inf)
 
     def resume(
         self, samples: int, mean: Array, film_state: FilmState, particles: ParticleFilm | None
@@ -247,11 +244,11 @@ class Tracer:
     def _aovs_for(self, settings: Settings, before: "Tracer | None" = None) -> AovTracer:
         """The AOV tracer for settings: that of `before` if it serves them, else a new one."""
         plan = replace(self._plan, settings=settings)
-        is_same = before and self.device_scene.has_kernel_of(before.device_scene)
-        if before and is_same and before.aovs.serve(settings):
-            before.aovs.check(plan)
-            return before.aovs
-        return AovTracer(self._context, plan, self.device_scene)
+        served = before.aovs if before and before.aovs.serve(plan) else None
+        if before and served and self.device_scene.has_kernel_of(before.device_scene):
+            served.check(plan)
+            return served
+        return AovTracer(self._context, plan, self.device_scene, served)
 
     @property
     def _lacks_particles(self) -> bool:
@@ -295,5 +292,5 @@ class Tracer:
         self.device_scene.dispatch(kernel, self.film, self._plan, part, self._tiles, own)
 
     def _own(self, part: DispatchRange) -> dict[str, Resource]:
-        own = {**self.probes.resources, **self.film.resources}
-        return own | self._raster.drawn(self.film, part.samples)
+        drawn = self._raster.drawn(self.film, part.samples)
+        return {**self.probes.resources, **self.film.resources, **drawn}

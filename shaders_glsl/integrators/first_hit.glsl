@@ -1,5 +1,6 @@
 // Outputs of the first surface that a camera ray meets. A pass gathers one or two of them, FIRST_AOV
-// and SECOND_AOV. It takes only whole observations, so that none is carried from dispatch to dispatch.
+// and SECOND_AOV. It takes only whole observations, so that none is carried from dispatch to dispatch,
+// except IN_PIECES: then it gathers one alone, sample by sample.
 
 // The value of a sample that meets nothing. It is not finite, so add_sample leaves it out.
 vec3 nothing_met() {

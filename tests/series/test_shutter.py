@@ -221,10 +221,9 @@ def test_the_command_renders_the_blurred_frame(
 @pytest.mark.parametrize(
     ("settings", "reason"),
     [
-        ({"aov": ("normal",)}, "an open shutter do not go together: AOVs are gathered"),
+        ({"aov": ("position",)}, "the AOV position and a camera that moves"),
         ({"method": "ddgi"}, "probes hold the light of one time"),
         ({"caustics": "on"}, "particles are followed for many samples at once"),
-        ({"denoise": "nlm", "samples": 64}, "the AOVs that guide it show one time"),
         ({"sampler": "independent"}, "all pixels would err alike"),
         ({"sampler": "net"}, "all pixels would err alike"),
     ],
