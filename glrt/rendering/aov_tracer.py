@@ -211,7 +211,7 @@ class AovTracer:
         return {aov: found[aov] for aov in self.aovs}
 
     def release(self, after: "AovTracer | None" = None) -> None:
-        """Release the films, except those that `after` holds, and give the kernels back.
+        """Release the films, except the ones of `after`, and give the kernels back.
 
         If it is `after` itself, nothing is released.
         """
