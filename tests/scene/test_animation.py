@@ -13,7 +13,7 @@ from hypothesis import strategies as some
 from glrt.core.errors import SceneError, UsageError
 from glrt.image.sources import load
 from glrt.scene.animation.interpolation import between
-from glrt.scene.animation.rotations import angles, matrix, slerp
+from glrt.scene.animation.rotations import angles, matrix, of_angles, slerp
 from glrt.scene.animation.tracks import Animation, Track, parse_target
 from glrt.scene.scene import Scene
 from glrt.scene.scenefile.catalog import find
@@ -86,6 +86,15 @@ def test_angles_of_a_quaternion_turn_as_it_does(parts: list[float]) -> None:
         return
     x, y, z = map(float, angles(quaternion))
     assert rotation((x, y, z)) == pytest.approx(matrix(quaternion), abs=1e-7)
+
+
+@given(some.lists(some.floats(-720, 720), min_size=3, max_size=3))
+def test_a_quaternion_of_angles_turns_as_they_do(degrees: list[float]) -> None:
+    x, y, z = degrees
+    found = of_angles(degrees)
+    assert np.linalg.norm(found) == pytest.approx(1, abs=1e-12)
+    assert found[3] >= 0
+    assert matrix(found) == pytest.approx(rotation((x, y, z)), abs=1e-12)
 
 
 @pytest.mark.parametrize("y", [90, -90])

@@ -25,9 +25,10 @@ from glrt.view.edits.keyframes import (
     with_key,
     without_key,
 )
+from glrt.view.edits.scene_edits import with_object
 from glrt.view.edits.unsaved import is_edited
 from glrt.view.timeline import Timeline
-from tests.support.builders import MATTE, scene_of, sphere
+from tests.support.builders import MATTE, box, scene_of, sphere
 
 CENTER = ("objects", "ball", "center")
 LIGHTS: Any = {"background": {"color": [1, 1, 1]}}
@@ -50,6 +51,24 @@ def test_a_frame_has_the_bits_of_the_frame_that_is_rendered() -> None:
     assert shown.animation == scene.animation
     assert value_of(at_frame(scene, 99), CENTER) == (4, 0, -5)
     assert at_frame(ball(), 7) == ball()
+
+
+def test_a_key_for_angles_in_a_track_of_quaternions_is_a_quaternion() -> None:
+    """The object is turned at frame 2 and set; before, nothing turns."""
+    keys = ("objects", "crate", "rotate")
+    crate = {**box([0, 0, -5], [1, 1, 1], "m"), "name": "crate"}
+    track = Track(target="objects.crate.rotate", times=(0,), values=((0, 0, 0, 1),))
+    scene = replaced(
+        scene_of([crate], {"m": MATTE}, **LIGHTS), animation=Animation(fps=4, tracks=(track,))
+    )
+    turned = with_object(scene, 0, replaced(scene.objects[0], rotate=(0.0, 90.0, 0.0)))
+    found = with_key(turned, keys, 2)
+    assert frames_of_keys(found, keys) == [0, 2]
+    assert found.animation
+    half = 0.5**0.5
+    assert found.animation.tracks[0].values[1] == pytest.approx((0, half, 0, half))
+    assert value_of(at_frame(found, 1), keys) == pytest.approx((0, 45, 0), abs=1e-9)
+    assert value_of(at_frame(found, 2), keys) == pytest.approx((0, 90, 0), abs=1e-9)
 
 
 def test_a_frame_that_is_shown_is_no_edit_and_changes_no_saved_value() -> None:

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
+QUATERNION = 4  # numbers
 _STRAIGHT = 1 - 1e-9  # cosine between two quaternions above which their chord is their arc
 
 
@@ -41,6 +42,25 @@ def matrix(quaternion: Sequence[float] | Array) -> Array:
             [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
         ]
     )
+
+
+def of_angles(degrees: Sequence[float]) -> Array:
+    """Return the quaternion, (4,), that turns as degrees about the x, then the y, then the z axis.
+
+    So `rotate` of an object turns; its w is not below 0.
+    """
+    found = np.array([0.0, 0.0, 0.0, 1.0])
+    for axis, angle in enumerate(np.radians(degrees)):
+        turn = np.zeros(QUATERNION)
+        turn[axis], turn[3] = math.sin(angle / 2), math.cos(angle / 2)
+        found = _product(turn, found)
+    return found if found[3] >= 0 else -found
+
+
+def _product(second: Array, first: Array) -> Array:
+    """Return the quaternion that turns by the first and then by the second."""
+    vector = second[3] * first[:3] + first[3] * second[:3] + np.cross(second[:3], first[:3])
+    return np.array([*vector, second[3] * first[3] - second[:3] @ first[:3]])
 
 
 def angles(quaternion: Array) -> Array:

@@ -9,6 +9,7 @@ from pydantic import BaseModel
 
 from glrt.core.errors import SceneError, UsageError
 from glrt.core.memo import kept_for_the_same
+from glrt.scene.animation.rotations import QUATERNION, of_angles
 from glrt.scene.animation.tracks import Animation, Track
 from glrt.scene.frames import with_values
 from glrt.scene.scene import Scene
@@ -95,7 +96,8 @@ def with_key(scene: Scene, keys: Keys, frame: float, selected: int | None = None
     """Return the scene with a key for the present value at a frame; it replaces one at the frame.
 
     The animation and the track are made if there are none. A selected object without a name gets
-    one. Raises `UsageError` for a value that cannot have keys.
+    one. Angles become a quaternion where the track holds quaternions. Raises `UsageError` for a
+    value that cannot have keys.
     """
     if keys[0] == "objects" and selected is not None and not scene.objects[selected].name:
         named = replaced(scene.objects[selected], name=_name_of(scene, selected))
@@ -108,11 +110,8 @@ def with_key(scene: Scene, keys: Keys, frame: float, selected: int | None = None
     track = _track(animation, keys) or Track(
         target=target_of(keys), times=(moment,), values=(value,)
     )
-    if _length(track.values[0]) != _length(value):
-        raise UsageError(
-            f"The track of {target_of(keys)} holds quaternions, and the window sets angles. Set "
-            "its keys in the file."
-        )
+    if _length(track.values[0]) == QUATERNION > _length(value):
+        value = tuple(of_angles(value).tolist())
     others = [key for key in zip(track.times, track.values, strict=True) if key[0] != moment]
     others = [key for key in others if abs(key[0] - moment) > SAME]
     times, values = zip(*sorted([*others, (moment, value)], key=lambda key: key[0]), strict=True)
