@@ -192,19 +192,24 @@ def _render_in_bands(
 ) -> int:
     """Render by the workers of `--cluster`."""
     from glrt.cluster.bands import PictureJob, render_bands
+    from glrt.cluster.kept_bands import KeptBands
 
+    kept = KeptBands(Path(arguments.outputs[0]))
     start, setup = time.perf_counter(), since_start()
     how = arguments.context, arguments.pipeline, wanted.decisions
     with crew_of(arguments, interruption, "band") as crew:
-        done = render_bands(crew, PictureJob(wanted.scene, wanted.settings, *how))
+        done = render_bands(crew, PictureJob(wanted.scene, wanted.settings, *how), kept)
     if done is None:
-        return fail(signals.NOTHING, _signal_code(interruption))
+        stand = f"interrupted: {counted(kept.count, 'band')} are kept in {kept.folder}"
+        text = f"{stand}, and the same command continues" if kept.count else signals.NOTHING
+        return fail(text, _signal_code(interruption))
     image, route = done
     assert image.recipe
     seconds = {"setup": setup, "load": load, "render": time.perf_counter() - start}
     driver = Driver(image.recipe.renderer, route)
     finished = Finished(wanted.scene, image.recipe.settings, image.recipe.pipeline, driver)
     Autosave(arguments.outputs).keep(image)
+    kept.remove()
     report(arguments, Done(finished, image, 0, seconds))
     return 0
 

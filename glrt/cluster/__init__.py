@@ -8,5 +8,6 @@ Modules, each importing only what stands above it:
 - clusters: opens a cluster, or starts a local one
 - crew: gives tasks to workers, and yields each answer once
 - films: frames of a film, by workers
+- kept_bands: bands that stand until the picture is written
 - bands: a picture as bands of rows, by workers
 """

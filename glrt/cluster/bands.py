@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from glrt.cluster.crew import Crew
+from glrt.cluster.kept_bands import KeptBands
 from glrt.core.errors import RenderError
 from glrt.gpu.context import Choice, Pipeline
 from glrt.image.allotment import NO_COUNTS, NO_SHARES
@@ -18,6 +19,7 @@ from glrt.image.aovs import AovImage
 from glrt.image.film_state import FilmState
 from glrt.image.image import Image
 from glrt.image.net_channels import NO_NET
+from glrt.image.recipe import Recipe
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 from glrt.settings import Settings
@@ -62,7 +64,7 @@ class PictureWork:
     def do(self, number: int) -> tuple[Image, str]:
         """Return a band, and the route by which OpenGL was opened; raises `GlrtError`.
 
-        Only the first band has a recipe, which holds the scene.
+        The scene of its recipe names files and lacks their contents, which need not travel back.
         """
         job, crop = self._job, bands_of(self._job.settings)[number]
         if self._renderer:
@@ -76,7 +78,9 @@ class PictureWork:
                 opens_shutter=True,
             )
         image = self._renderer.render().image()
-        return image if number == 0 else replace(image, recipe=None), self._renderer.context.route
+        assert image.recipe
+        recipe = Recipe.from_json(image.recipe.to_json(), f"band {number}")
+        return replace(image, recipe=recipe), self._renderer.context.route
 
     def release(self) -> None:
         """Release OpenGL."""
@@ -85,18 +89,26 @@ class PictureWork:
         self._renderer = None
 
 
-def render_bands(crew: Crew, job: PictureJob) -> tuple[Image, str] | None:
+def render_bands(crew: Crew, job: PictureJob, kept: KeptBands) -> tuple[Image, str] | None:
     """Return the picture and the route by which OpenGL was opened; None after an interruption.
 
-    Raises the errors of a worker, and `RenderError` if the cluster ends.
+    The bands that are kept are not rendered again, and others are kept as they arrive. Raises the
+    errors of a worker, and `RenderError` if the cluster ends.
     """
-    count = len(bands_of(job.settings))
-    found = dict[int, Image]()
-    route = ""
-    for number, value in crew.answers(job, range(count)):
+    count, route, is_told = len(bands_of(job.settings)), "", False
+    if not crew.choose_driver():
+        return None
+    found = kept.found(job, crew.renderer)
+    for number, value in crew.answers(job, [it for it in range(count) if it not in found]):
         if isinstance(value, RenderError):
             raise RenderError(f"Band {number} of {count} failed: {value}.")
         found[number], route = value
+        try:
+            kept.keep(number, found[number])
+        except RenderError as error:
+            if not is_told:
+                crew.say(f"a band is not kept: {error} The render continues.")
+            is_told = True
     if len(found) < count:
         return None
     return joined([found[number] for number in range(count)], job.settings), route

@@ -50,7 +50,7 @@ class Crew:
         Ends early after an interruption. A task whose worker ended is done again. Raises
         `RenderError` if the scheduler ends, or no worker fits, and the `GlrtError` of a task.
         """
-        if not numbers or not self._choose_driver():
+        if not numbers or not (self.renderer or self.choose_driver()):
             return
         parcel, digest = packed(job)
         held = self.client.submit(entry.same, parcel, key=f"glrt-{digest}")
@@ -84,7 +84,7 @@ class Crew:
             return found
         raise RenderError(f"no worker of {self.place} is left that can render. {self.advice}")
 
-    def _choose_driver(self) -> bool:
+    def choose_driver(self) -> bool:
         """Ask the workers for their drivers, and want the most common; False if interrupted."""
         while not (present := self.fit()):
             if not self._goes_on():

@@ -96,7 +96,7 @@ def test_a_worker_whose_driver_differs_renders_nothing(
         self.renderer = "another driver"
         return True
 
-    monkeypatch.setattr(crew.Crew, "_choose_driver", chosen)
+    monkeypatch.setattr(crew.Crew, "choose_driver", chosen)
     with pytest.raises(RenderError, match=r"no worker .* is left that can render"):
         film(scene, tmp_path / "f", "--cluster", cluster.scheduler_address)
     told = capsys.readouterr().err

@@ -12,7 +12,7 @@ from glrt.rendering.stopping import Interruption
 
 _ADVICE = {  # by what workers render
     "frame": "Finished frames are kept: start it again, and the same command continues.",
-    "band": "Start it, and give the command again.",
+    "band": "Finished bands are kept: start it again, and the same command continues.",
 }
 
 
