@@ -200,7 +200,7 @@ def _render_in_bands(
     with crew_of(arguments, interruption, "band") as crew:
         done = render_bands(crew, PictureJob(wanted.scene, wanted.settings, *how), kept)
     if done is None:
-        stand = f"interrupted: {counted(kept.count, 'band')} are kept in {kept.folder}"
+        stand = f"interrupted: {kept.folder} holds {counted(kept.count, 'band')}"
         text = f"{stand}, and the same command continues" if kept.count else signals.NOTHING
         return fail(text, _signal_code(interruption))
     image, route = done

@@ -129,8 +129,11 @@ class AovTracer:
         with ExitStack() as refused:
             refused.callback(self.release, before)
             for number, together in enumerate(_together(plan, scene.pipeline)):
-                kept = before._stages[number].film if before else None
-                self._stages.append(_Stage(context, plan, scene, together, kept))
+                kept = before._stages[number] if before else None
+                if kept:
+                    kept.schedule.drop()  # the first dispatch of a kernel writes to its film
+                film = kept.film if kept else None
+                self._stages.append(_Stage(context, plan, scene, together, film))
             refused.pop_all()
         self.compile_seconds = time.perf_counter() - start if aovs else 0.0
 

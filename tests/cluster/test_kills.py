@@ -175,3 +175,28 @@ def test_an_interrupted_film_ends_its_workers_and_continues(tmp_path: Path) -> N
     done = glrt(*long, "--json")
     kept = [line["kept"] for line in map(json.loads, done.stdout.splitlines()) if "kept" in line]
     assert sum(kept) == len(before)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("end", [signal.SIGKILL, signal.SIGINT])
+def test_a_picture_whose_client_ends_continues_with_its_bands(
+    tmp_path: Path, end: signal.Signals
+) -> None:
+    """32 bands, of which some stand; the file has the bits of a render in one piece."""
+    out, bands = tmp_path / "out.exr", tmp_path / "out.exr.bands"
+    tall = ("--width", "64", "--height", "256", "--samples", "256", "--caustics", "off")
+    long = ("render", "cornell", *tall, "-o", str(out), "--quiet")
+    first = start(*long, "--cluster", "local:1")
+    while len(list(bands.glob("*.exr"))) < 3 and first.poll() is None:
+        time.sleep(0.1)
+    first.send_signal(end)
+    _, error = first.communicate(timeout=60)
+    stand = {file.name: file.stat().st_mtime_ns for file in bands.glob("*-*.exr")}
+    assert 3 <= len(stand) < 32
+    if end == signal.SIGINT:
+        assert f"interrupted: {bands} holds {len(stand)} bands, and" in error
+    assert glrt(*long, "--cluster", "local:1").returncode == 0
+    assert not bands.exists()
+    found = out.read_bytes()
+    assert glrt(*long).returncode == 0
+    assert out.read_bytes() == found

@@ -137,6 +137,15 @@ def test_a_reader_that_crashes_leaves_a_message(
         scene_of(tmp_path, layer(square()))
 
 
+def test_a_syntax_error_is_named_by_its_line(tmp_path: Path) -> None:
+    """A bracket that is not closed in line 8; the next one, 9, is where the reader stops."""
+    text = (
+        '#usda 1.0\n(\n)\n\ndef Mesh "a"\n{\n\nint[] faceVertexCounts = [3\npoint3f[] points\n}\n'
+    )
+    with pytest.raises(SceneError, match=r"is damaged: line 9, column 1 cannot be read\. Export"):
+        scene_of(tmp_path, text)
+
+
 WORDS = ("Traceback", "pxr", "Tf", "Boost", "Error in", "Sdf", "/opt")  # of the library
 
 

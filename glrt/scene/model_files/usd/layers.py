@@ -1,6 +1,7 @@
 """The layers of a USD file: those in its folder, and no others unless the user allows it."""
 
 import os
+import re
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -38,8 +39,8 @@ def opened_stage(folder: Folder) -> Usd.Stage:
     Their names are removed from the layers in memory, so that the library never opens them.
     """
     root = _layer(str(folder.root))
-    if root is None:
-        raise UnshownError("is damaged, or no USD file")
+    if isinstance(root, str):
+        raise UnshownError(f"is damaged: {root}" if root else "is damaged, or no USD file")
     waiting, kept = [root], {root.identifier: root}
     while waiting:
         layer = waiting.pop()
@@ -76,16 +77,19 @@ def _dependency(layer: Sdf.Layer, named: str, folder: Folder) -> Sdf.Layer | Non
         folder.left.name("layers outside of the folder (--allow-outside)", named)
         return None
     found = _layer(path)
-    if found is None:
+    if isinstance(found, str):
         folder.left.name("layers that cannot be read", named)
+        return None
     return found
 
 
-def _layer(path: str) -> Sdf.Layer | None:
+def _layer(path: str) -> Sdf.Layer | str:
+    """Return a layer, or where it cannot be parsed: a sentence, empty for files without lines."""
     try:
-        return Sdf.Layer.FindOrOpen(path)
-    except Exception:  # of the library, for content that it cannot parse
-        return None
+        return Sdf.Layer.FindOrOpen(path) or ""
+    except Exception as error:  # of the library, for content that it cannot parse
+        place = re.search(re.escape(path) + r":(\d+):(\d+): ", str(error))
+        return f"line {place[1]}, column {place[2]} cannot be read" if place else ""
 
 
 def _files(layers: object, folder: Folder) -> list[str]:
