@@ -182,7 +182,7 @@ def test_an_interrupted_film_ends_its_workers_and_continues(tmp_path: Path) -> N
 def test_a_picture_whose_client_ends_continues_with_its_bands(
     tmp_path: Path, end: signal.Signals
 ) -> None:
-    """32 bands, of which some stand; the file has the bits of a render in one piece."""
+    """Some of 32 bands stand; in the end the file has the bits of a render in one piece."""
     out, bands = tmp_path / "out.exr", tmp_path / "out.exr.bands"
     tall = ("--width", "64", "--height", "256", "--samples", "256", "--caustics", "off")
     long = ("render", "cornell", *tall, "-o", str(out), "--quiet")
