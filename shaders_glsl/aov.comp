@@ -7,14 +7,12 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(rgba32f) uniform readonly image2D source_mean;             // a: number of its samples
 layout(rgba32f) uniform readonly image2D source_variance;         // a: number of observations
-layout(rgba32f) uniform readonly image2D source_second_mean;
+layout(rgba32f) uniform readonly image2D source_second_mean;      // where IN_PIECES: the observation that has begun
 layout(rgba32f) uniform readonly image2D source_second_variance;
-layout(rgba32f) uniform readonly image2D source_block;            // a: its samples, where IN_PIECES
 layout(rgba32f) uniform writeonly image2D target_mean;
 layout(rgba32f) uniform writeonly image2D target_variance;
 layout(rgba32f) uniform writeonly image2D target_second_mean;
 layout(rgba32f) uniform writeonly image2D target_second_variance;
-layout(rgba32f) uniform writeonly image2D target_block;
 
 layout(std430) buffer Lost { uint lost_samples; };  // as in trace.comp
 
@@ -27,7 +25,7 @@ void main() {
     Pixel second = empty_pixel();
     if (frame.is_empty == 0) {
         vec4 block = vec4(0.0);
-        if (IN_PIECES) block = imageLoad(source_block, texel);
+        if (IN_PIECES) block = imageLoad(source_second_mean, texel);
         first = pixel_of(imageLoad(source_mean, texel), imageLoad(source_variance, texel), block);
         if (SECOND_AOV != NO_AOV) {
             second = pixel_of(imageLoad(source_second_mean, texel), imageLoad(source_second_variance, texel));
@@ -37,7 +35,7 @@ void main() {
     if (MAY_LOSE && loop_was_cut) atomicAdd(lost_samples, 1u);
     imageStore(target_mean, texel, vec4(first.mean, first.count));
     imageStore(target_variance, texel, vec4(first.variance, first.observations));
-    if (IN_PIECES) imageStore(target_block, texel, vec4(first.block, first.begun));
+    if (IN_PIECES) imageStore(target_second_mean, texel, vec4(first.block, first.begun));
     if (SECOND_AOV == NO_AOV) return;
     imageStore(target_second_mean, texel, vec4(second.mean, second.count));
     imageStore(target_second_variance, texel, vec4(second.variance, second.observations));

@@ -6,10 +6,9 @@ uniform sampler2D source_mean;             // as in aov.comp
 uniform sampler2D source_variance;
 uniform sampler2D source_second_mean;
 uniform sampler2D source_second_variance;
-uniform sampler2D source_block;
 layout(location = 0) out vec4 target_mean;
 layout(location = 1) out vec4 target_variance;
-layout(location = 2) out vec4 target_second_mean;  // where IN_PIECES: target_block
+layout(location = 2) out vec4 target_second_mean;  // where IN_PIECES: the observation that has begun
 layout(location = 3) out vec4 target_second_variance;
 
 void main() {
@@ -18,7 +17,7 @@ void main() {
     Pixel second = empty_pixel();
     if (frame.is_empty == 0) {
         vec4 block = vec4(0.0);
-        if (IN_PIECES) block = texelFetch(source_block, texel, 0);
+        if (IN_PIECES) block = texelFetch(source_second_mean, texel, 0);
         vec4 mean = texelFetch(source_mean, texel, 0);
         first = pixel_of(mean, texelFetch(source_variance, texel, 0), block);
         if (SECOND_AOV != NO_AOV) {

@@ -11,6 +11,7 @@ Modules, each importing only what stands above it:
 - kernel_switch: switches between a generic and a baked kernel
 - pass_film: film of a pass
 - film: running mean and variance in textures
+- aov_places: AOVs read back from films
 - aov_tracer: gathers AOVs
 - particle_tracer: gathers light of particles
 - probe_weights: weight of an update of probes
@@ -25,7 +26,6 @@ Modules, each importing only what stands above it:
 - progress: read-only properties of a renderer
 - first_half: the first half of a render, for a denoiser
 - shutter: the scene of each sample while the shutter is open
-- aov_places: AOVs read back from films
 - renderer: the renderer: a scene and settings to samples
 - history: samples of earlier views while the camera moves
 - stopping: renders up to a limit of samples, time or error

@@ -71,16 +71,17 @@ def aov_pass(aovs: Sequence[Aov], in_pieces: bool = False) -> RenderPass:
     Terms lie side by side in its outputs, in the order of `TERMS`. A pass `in_pieces` adds any
     number of samples, not whole observations alone; it gathers one AOV of surfaces.
     """
-    begun, pieces = ("block",) * in_pieces, {"IN_PIECES": in_pieces}
+    pieces = {"IN_PIECES": in_pieces}
     if kept := [TERMS.index(aov) for aov in aovs if aov in TERMS]:
         constants = {"LIGHT_TERMS": sum(1 << term for term in kept), "LAYERS": 0, **NO_REUSE}
-        return RenderPass(TERM_SHADERS, ("mean", "variance", *begun), constants | pieces)
+        outputs = ("mean", "variance", *["block"] * in_pieces)
+        return RenderPass(TERM_SHADERS, outputs, constants | pieces)
     if aovs[0] in OF_PATHS:
         return BOUNCES
     numbers = [*map(aov_number, aovs), AOV_NUMBERS["NO_AOV"]]
     names = [f"{slot}{name}" for slot in SLOTS[: len(aovs)] for name in ("mean", "variance")]
     return RenderPass(
         {"compute": ("aov.comp",), "fragment": ("trace.vert", "aov.frag")},
-        (*names, *begun),
+        (*names, *["second_mean"] * in_pieces),  # where the observation that has begun lies
         {"FIRST_AOV": numbers[0], "SECOND_AOV": numbers[1], **pieces},
     )

@@ -11,6 +11,12 @@ from glrt.cluster.worker import Job, packed
 class LoneCrew:
     """Does the tasks of a job from the last to the first."""
 
+    renderer = "this process"
+
+    def choose_driver(self) -> bool:
+        """There is one driver."""
+        return True
+
     def answers(self, job: Job, numbers: Collection[int]) -> Iterator[tuple[int, Any]]:
         """Yield number and value of each task, as they would arrive."""
         work = pickle.loads(packed(job)[0]).begin()
