@@ -24,9 +24,12 @@ void main() {
     Pixel first = empty_pixel();
     Pixel second = empty_pixel();
     if (frame.is_empty == 0) {
-        vec4 block = vec4(0.0);
-        if (IN_PIECES) block = imageLoad(source_second_mean, texel);
-        first = pixel_of(imageLoad(source_mean, texel), imageLoad(source_variance, texel), block);
+        first = pixel_of(imageLoad(source_mean, texel), imageLoad(source_variance, texel));
+        if (IN_PIECES) {
+            vec4 begun = imageLoad(source_second_mean, texel);
+            first.block = begun.rgb;
+            first.begun = begun.a;
+        }
         if (SECOND_AOV != NO_AOV) {
             second = pixel_of(imageLoad(source_second_mean, texel), imageLoad(source_second_variance, texel));
         }

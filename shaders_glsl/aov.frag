@@ -16,10 +16,12 @@ void main() {
     Pixel first = empty_pixel();
     Pixel second = empty_pixel();
     if (frame.is_empty == 0) {
-        vec4 block = vec4(0.0);
-        if (IN_PIECES) block = texelFetch(source_second_mean, texel, 0);
-        vec4 mean = texelFetch(source_mean, texel, 0);
-        first = pixel_of(mean, texelFetch(source_variance, texel, 0), block);
+        first = pixel_of(texelFetch(source_mean, texel, 0), texelFetch(source_variance, texel, 0));
+        if (IN_PIECES) {
+            vec4 begun = texelFetch(source_second_mean, texel, 0);
+            first.block = begun.rgb;
+            first.begun = begun.a;
+        }
         if (SECOND_AOV != NO_AOV) {
             second = pixel_of(texelFetch(source_second_mean, texel, 0), texelFetch(source_second_variance, texel, 0));
         }

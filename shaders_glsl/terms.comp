@@ -31,9 +31,12 @@ void load_terms(ivec2 texel) {
         term_pixels[i] = empty_pixel();
         if (!is_kept(i) || frame.is_empty != 0) continue;
         ivec2 place = place_of(texel, i);
-        vec4 block = vec4(0.0);
-        if (IN_PIECES) block = imageLoad(source_block, place);
-        term_pixels[i] = pixel_of(imageLoad(source_mean, place), imageLoad(source_variance, place), block);
+        term_pixels[i] = pixel_of(imageLoad(source_mean, place), imageLoad(source_variance, place));
+        if (IN_PIECES) {
+            vec4 begun = imageLoad(source_block, place);
+            term_pixels[i].block = begun.rgb;
+            term_pixels[i].begun = begun.a;
+        }
     }
 }
 

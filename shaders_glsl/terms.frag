@@ -17,9 +17,12 @@ void main() {
     term_pixels[KEPT_TERM] = empty_pixel();
     if (frame.is_empty == 0) {
         vec4 mean = texelFetch(source_mean, texel, 0);
-        vec4 block = vec4(0.0);
-        if (IN_PIECES) block = texelFetch(source_block, texel, 0);
-        term_pixels[KEPT_TERM] = pixel_of(mean, texelFetch(source_variance, texel, 0), block);
+        term_pixels[KEPT_TERM] = pixel_of(mean, texelFetch(source_variance, texel, 0));
+        if (IN_PIECES) {
+            vec4 begun = texelFetch(source_block, texel, 0);
+            term_pixels[KEPT_TERM].block = begun.rgb;
+            term_pixels[KEPT_TERM].begun = begun.a;
+        }
     }
     Pixel whole = empty_pixel();
     add_samples(whole, frame.origin + texel);

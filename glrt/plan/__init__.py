@@ -9,6 +9,7 @@ Modules, each importing only what stands above it:
 - facts: facts that follow from a scene: counts, lamps, glasses, BVHs
 - lamp_sides: share of particles from each side of a lamp
 - probe_grid: positions of probes
+- probe_weights: weight of each update of probes
 - case: a scene with its settings
 - reasons: why a feature is compiled in or left out, in words
 - features: features compiled into a kernel

@@ -14,7 +14,6 @@ Modules, each importing only what stands above it:
 - aov_places: AOVs read back from films
 - aov_tracer: gathers AOVs
 - particle_tracer: gathers light of particles
-- probe_weights: weight of an update of probes
 - probe_tracer: gathers light of probes
 - probe_supply: probes of the next samples
 - raster: first surfaces by rasterisation

@@ -34,10 +34,10 @@ from glrt.packing.probes import (
 from glrt.plan.methods import METHODS
 from glrt.plan.plan import Plan
 from glrt.plan.probe_grid import Grid, updated_at_once
+from glrt.plan.probe_weights import WEIGHTS
 from glrt.rendering.device_scene import DeviceScene
 from glrt.rendering.kernel_switch import ready
 from glrt.rendering.passes import PROBE_DISTANCES, PROBE_LIGHT, PROBE_PLACES, PROBE_RAYS, RenderPass
-from glrt.rendering.probe_weights import WEIGHTS
 from glrt.rendering.schedule import DispatchRange
 
 RAYS = 64  # per probe and update

@@ -21,11 +21,6 @@ Pixel pixel_of(vec4 mean, vec4 variance) {
     return Pixel(mean.rgb, mean.a, variance.rgb, variance.a, vec3(0.0), 0.0);
 }
 
-// A pixel with an observation that goes on.
-Pixel pixel_of(vec4 mean, vec4 variance, vec4 block) {
-    return Pixel(mean.rgb, mean.a, variance.rgb, variance.a, block.rgb, block.a);
-}
-
 // The mean of `count` samples from the mean of all but x, m += (x - m) / n. A mix of m and x would drift,
 // since its weights do not add up to 1 in floating point. A late step is a few units in the last place
 // of m. If it were always rounded the same way, the mean of an edge, where samples have two values, would
