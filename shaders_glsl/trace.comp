@@ -87,7 +87,8 @@ void main() {
     if (HAS_NET) store_net(texel);
     else if (BLOCK > 1) imageStore(target_block, texel, vec4(pixel.block, pixel.begun));
     store_layers(texel, layers);
-    for (int i = 0; REUSES && i < PARTS_OF_RESERVOIR; i += 1) {
+    if (!REUSES) return;
+    for (int i = 0; i < PARTS_OF_RESERVOIR; i += 1) {
         imageStore(target_reservoirs, texel_of_part(texel, i), part_of_reservoir(held_reservoir, i));
     }
 }

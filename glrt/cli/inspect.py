@@ -141,7 +141,7 @@ def _kernel(arguments: argparse.Namespace, scene: Scene, settings: Settings) -> 
     try:
         recipe, pipeline = recipe_of(arguments.scene), arguments.pipeline
         renderer = open_renderer(scene, settings, recipe, context, tier="baked", pipeline=pipeline)
-        text = renderer.shaders[-1].text
+        text = renderer.shaders[-1].live.text
         renderer.release()
         return text
     finally:

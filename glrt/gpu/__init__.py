@@ -6,6 +6,9 @@ Modules, each importing only what stands above it:
 - xlib: survives the loss of an X server
 - context_turns: contexts that take turns in one thread
 - structs: GLSL structs read as numpy dtypes
+- branches: a shader function as a tree of conditions and calls
+- constant_values: expressions whose value constants decide
+- live_code: leaves out what cannot run
 - glsl: shader files put together into what the driver gets
 - program: a compiled program, its blocks and images bound by name
 - raster_kernel: a program that draws vertices into a depth buffer

@@ -51,7 +51,7 @@ class Kernel:
         self._gl, self.pace = gl, Pace()
         try:
             with postponed():  # moderngl names a program's parts in Python: Ctrl-C there crashes it
-                self._program = gl.compute_shader(source.text)
+                self._program = gl.compute_shader(source.live.text)
         except moderngl.Error as error:
             raise _refusal(source, error) from error
 
@@ -130,7 +130,7 @@ def drawing(gl: moderngl.Context, vertex: Source, fragment: Source) -> moderngl.
     """Return a program that draws; RenderError gives the driver's message by file and line."""
     try:
         with postponed():  # as in Kernel
-            return gl.program(vertex_shader=vertex.text, fragment_shader=fragment.text)
+            return gl.program(vertex_shader=vertex.live.text, fragment_shader=fragment.live.text)
     except moderngl.Error as error:
         raise _refusal(fragment, error) from error
 
@@ -165,5 +165,5 @@ def bind_textures(
 
 
 def _refusal(source: Source, error: moderngl.Error) -> RenderError:
-    message = one_line(source.explain(str(error)))
+    message = one_line(source.live.explain(str(error)))
     return RenderError(f"the driver refuses a shader: {message}")

@@ -14,7 +14,7 @@ const float LEAST_ALIKE = 0.9063;    // least cosine between normals of pixels t
 const float NEXT_TO_SOURCE = 1.0 / 1024.0;  // of the way to a source: its own object this near hides none
 const float MOST_DEEPER = 0.1;       // most relative difference of the pixels' distances from the camera
 const int STREAMS = 1 + (REUSES_OWN ? 1 : 0) + REUSES_NEAR;
-const bool REUSES = STREAMS > 1;
+const bool REUSES = REUSES_OWN || REUSES_NEAR > 0;
 const bool RESAMPLES_LAMPS = RESAMPLES && !IS_AIMED;
 
 const int BEFORE_FIRST = 0;   // the path has not met its first matte surface

@@ -51,7 +51,9 @@ def plant(file: Path, line: str) -> int:
 
 
 def test_the_version_stands_first_and_the_prelude_follows() -> None:
-    lines = Source("trace.comp", {"HAS_LENS": False, "BLOCK": 16}, texts=WRITTEN).text.splitlines()
+    lines = Source(
+        "trace.comp", {"HAS_LENS": False, "BLOCK": 16}, texts=WRITTEN
+    ).whole.text.splitlines()
     assert lines[:3] == [
         "#version 430 core",
         "const bool HAS_LENS = false;",
@@ -65,9 +67,9 @@ def test_a_file_is_included_once_where_it_is_first_named(shaders: Path) -> None:
     entry = '#include "a.glsl"\n#include "b.glsl"\nint entry;'
     source = Source("entry.comp", texts={"entry.comp": entry})
     lines = ["// b.glsl:2", "int b;", "// a.glsl:2", "int a;", "// entry.comp:3", "int entry;"]
-    assert [line.text for line in source.lines[1:]] == lines
+    assert [line.text for line in source.whole.lines[1:]] == lines
     origins = ["b.glsl:2", "a.glsl:2", "entry.comp:3"]
-    assert [line.origin for line in source.lines] == [
+    assert [line.origin for line in source.whole.lines] == [
         "prelude",
         *(o for o in origins for _ in "ab"),
     ]
@@ -82,7 +84,7 @@ def test_lines_are_assembled_once_while_files_and_constants_stay(
 
     def lines(**constants: bool | int) -> list[str]:
         source = Source("mine.comp", constants, texts=entry)
-        return [line.text for line in source.lines][1:]
+        return [line.text for line in source.whole.lines][1:]
 
     first = lines(A=1)
     expanded = list[str]()
@@ -102,18 +104,20 @@ def test_lines_are_assembled_once_while_files_and_constants_stay(
 
 
 def test_no_include_is_left_for_the_driver() -> None:
-    assert "#include" not in Source("trace.comp", EVERYTHING, texts=WRITTEN).text
+    assert "#include" not in Source("trace.comp", EVERYTHING, texts=WRITTEN).whole.text
 
 
 def test_a_missing_include_names_the_file_and_the_line_that_asks(shaders: Path) -> None:
     (shaders / "a.glsl").write_text('// one\n#include "lost.glsl"\n')
     with pytest.raises(RenderError, match=r"a\.glsl:2: .*'lost\.glsl': No such file"):
-        _ = Source("entry.comp", texts={"entry.comp": '#include "a.glsl"\n'}).text
+        _ = Source("entry.comp", texts={"entry.comp": '#include "a.glsl"\n'}).whole.text
 
 
 def test_a_file_is_read_once_until_it_is_asked_for_again(shaders: Path) -> None:
     def text() -> str:
-        return Source("entry.comp", texts={"entry.comp": '#include "a.glsl"\n'}).lines[-1].text
+        return (
+            Source("entry.comp", texts={"entry.comp": '#include "a.glsl"\n'}).whole.lines[-1].text
+        )
 
     file = shaders / "a.glsl"
     file.write_text("int a;\n")
@@ -136,7 +140,7 @@ def test_an_error_in_an_included_file_is_reported_by_file_and_line(
     ctx: moderngl.Context, shaders: Path, name: str
 ) -> None:
     (shaders / name).write_text("int first() { return 1; }\n\nint second() { return 2; }\n")
-    number = plant(shaders / name, "float broken() { return undeclared; }")
+    number = plant(shaders / name, "int broken = undeclared;")
     source = Source(
         "entry.comp", EVERYTHING, texts={"entry.comp": f'#include "{name}"\nvoid main() {{}}'}
     )
@@ -147,7 +151,7 @@ def test_an_error_in_an_included_file_is_reported_by_file_and_line(
 def test_an_error_deep_in_the_kernel_is_reported_by_file_and_line(
     ctx: moderngl.Context, shaders: Path
 ) -> None:
-    number = plant(shaders / "lights/sampling.glsl", "float broken() { return undeclared; }")
+    number = plant(shaders / "lights/sampling.glsl", "int broken = undeclared;")
     with pytest.raises(
         RenderError, match=rf"lights/sampling\.glsl:{number}: .*undeclared"
     ) as caught:
@@ -176,13 +180,13 @@ def test_an_error_in_the_entry_text_is_reported_under_its_name(ctx: moderngl.Con
 )
 def test_messages_of_all_drivers_are_led_back_to_files(told: str, led_back: str) -> None:
     source = Source("e.comp", texts={"e.comp": "one\ntwo\nthree"})
-    assert source.explain(told) == led_back
+    assert source.whole.explain(told) == led_back
 
 
 def test_each_line_of_a_message_is_led_back() -> None:
     source = Source("e.comp", texts={"e.comp": "one\ntwo\nthree"})
     told = "0:3(1): error: a\n0:5(1): warning: b\n"
-    assert source.explain(told) == "e.comp:1: error: a\ne.comp:3: warning: b\n"
+    assert source.whole.explain(told) == "e.comp:1: error: a\ne.comp:3: warning: b\n"
 
 
 # --- what the driver thinks ----------------------------------------------------------------
@@ -193,7 +197,8 @@ def test_each_line_of_a_message_is_led_back() -> None:
 def test_the_kernel_compiles_without_a_warning(ctx: moderngl.Context, features: str) -> None:
     assert ctx.version_code >= 430
     assert (
-        warnings((COMPUTE, Source("trace.comp", FEATURE_SETS[features], texts=WRITTEN).text)) == []
+        warnings((COMPUTE, Source("trace.comp", FEATURE_SETS[features], texts=WRITTEN).live.text))
+        == []
     )
 
 
@@ -201,7 +206,7 @@ def test_the_kernel_compiles_without_a_warning(ctx: moderngl.Context, features: 
 def test_the_kernel_with_layers_compiles_without_a_warning(ctx: moderngl.Context) -> None:
     assert ctx.version_code >= 430
     for layers in ({"LAYERS": 6}, {"LAYERS": 3, "BY_LENGTH": True}):
-        text = Source("trace.comp", {**EVERYTHING, **layers}, texts=WRITTEN).text
+        text = Source("trace.comp", {**EVERYTHING, **layers}, texts=WRITTEN).whole.text
         assert imprecise(text) == []
         assert warnings((COMPUTE, text)) == []
 
@@ -214,11 +219,11 @@ def test_aovs_and_surfaces_compile_without_a_warning(
 ) -> None:
     constants = FEATURE_SETS[features]
     (compute,) = sources("compute", constants, WRITTEN, render_pass)
-    assert imprecise(compute.text) == []
-    assert computed_returns(compute.text) == []
-    assert warnings((COMPUTE, compute.text)) == []
+    assert imprecise(compute.whole.text) == []
+    assert computed_returns(compute.whole.text) == []
+    assert warnings((COMPUTE, compute.live.text)) == []
     vertex, fragment = sources("fragment", constants, WRITTEN, render_pass)
-    assert warnings((VERTEX, vertex.text), (FRAGMENT, fragment.text)) == []
+    assert warnings((VERTEX, vertex.live.text), (FRAGMENT, fragment.live.text)) == []
 
 
 @pytest.mark.slow_cases("everything-*")
@@ -232,9 +237,9 @@ def test_other_passes_compile_without_a_warning(
     assert ctx.version_code >= 430
     constants = {**FEATURE_SETS[features], "CASTERS": 5, "LINKED": 5, "TARGETS": 2}
     (compute,) = sources("compute", constants, WRITTEN, render_pass)
-    assert imprecise(compute.text) == []
-    assert computed_returns(compute.text) == []
-    assert warnings((COMPUTE, compute.text)) == []
+    assert imprecise(compute.whole.text) == []
+    assert computed_returns(compute.whole.text) == []
+    assert warnings((COMPUTE, compute.live.text)) == []
 
 
 @pytest.mark.slow
@@ -249,7 +254,7 @@ def test_a_warning_of_the_driver_is_seen(ctx: moderngl.Context, shaders: Path) -
     source = Source("trace.comp", EVERYTHING, texts=WRITTEN)
     Kernel(ctx, source).release()
     for _ in ("for the first time", "again, though the driver may have it in its cache"):
-        told = [source.explain(line) for line in warnings((COMPUTE, source.text))]
+        told = [source.live.explain(line) for line in warnings((COMPUTE, source.live.text))]
         assert told
         assert all(
             f"sampling/warp.glsl:{number}:" in line and "initialized" in line for line in told
@@ -261,7 +266,7 @@ def test_a_warning_of_the_driver_is_seen(ctx: moderngl.Context, shaders: Path) -
 def test_the_fragment_kernel_is_glsl_4_10(ctx: moderngl.Context, features: str) -> None:
     vertex, fragment = sources("fragment", FEATURE_SETS[features], WRITTEN)
     FragmentKernel(ctx, vertex, fragment).release()
-    assert warnings((VERTEX, vertex.text), (FRAGMENT, fragment.text)) == []
+    assert warnings((VERTEX, vertex.live.text), (FRAGMENT, fragment.live.text)) == []
 
 
 def test_glsl_4_10_refuses_what_came_later(ctx: moderngl.Context) -> None:
@@ -282,6 +287,6 @@ def test_both_kernels_include_the_same_path_tracer() -> None:
 def test_the_kernel_takes_another_hash(ctx: moderngl.Context) -> None:
     texts = {**WRITTEN, "sampling/hash.glsl": read("sampling/other_hash.glsl")}
     source = Source("trace.comp", EVERYTHING, texts=texts)
-    assert "0x7FEB352Du" in source.text
-    assert "747796405u" not in source.text
+    assert "0x7FEB352Du" in source.whole.text
+    assert "747796405u" not in source.whole.text
     Kernel(ctx, source).release()

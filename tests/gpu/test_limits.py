@@ -37,9 +37,9 @@ def test_a_kernel_declares_no_more_than_drivers_grant(name: str, pipeline: Resol
     shaders = sources(pipeline, FEATURE_SETS["everything"], written_for_everything(), PASSES[name])
     for shader in shaders:
         for kind, pattern in DECLARED.items():
-            count = len(re.findall(pattern, shader.text, re.MULTILINE))
+            count = len(re.findall(pattern, shader.whole.text, re.MULTILINE))
             assert count <= GRANTED[pipeline][kind], kind
-        assert re.search(DECLARED["uniform blocks"], shader.text)
+        assert re.search(DECLARED["uniform blocks"], shader.whole.text)
 
 
 def test_declarations_are_counted() -> None:
@@ -48,7 +48,7 @@ def test_declarations_are_counted() -> None:
         "compute", FEATURE_SETS["everything"], written_for_everything(), passes.RADIANCE
     )
     counts = {
-        kind: len(re.findall(pattern, kernel.text, re.MULTILINE))
+        kind: len(re.findall(pattern, kernel.whole.text, re.MULTILINE))
         for kind, pattern in DECLARED.items()
     }
     assert counts["images"] == 8

@@ -69,13 +69,16 @@ def test_every_shader_file_is_compiled_by_a_test() -> None:
 
 
 def test_tone_mapping_compiles_without_a_warning(ctx: moderngl.Context) -> None:
-    assert warnings((COMPUTE, Source("tonemap", texts={"tonemap": TONEMAP_ENTRY}).text)) == []
+    assert warnings((COMPUTE, Source("tonemap", texts={"tonemap": TONEMAP_ENTRY}).live.text)) == []
 
 
 @pytest.mark.parametrize("name", DISPLAYS)
 def test_the_display_compiles_without_a_warning(ctx: moderngl.Context, name: str) -> None:
     assert ctx.version_code >= 430
-    stages = [(VERTEX, Source("display.vert").text), (FRAGMENT, Source(f"{name}.frag").text)]
+    stages = [
+        (VERTEX, Source("display.vert").live.text),
+        (FRAGMENT, Source(f"{name}.frag").live.text),
+    ]
     assert warnings(*stages) == []
 
 
@@ -86,8 +89,8 @@ def test_passes_to_another_view_compile_without_a_warning(
 ) -> None:
     assert ctx.version_code >= 430
     constants = {"HAS_DEFORMED": has_deformed}
-    shader = Source(f"{name}.frag", constants).text
-    assert warnings((VERTEX, Source("display.vert").text), (FRAGMENT, shader)) == []
+    shader = Source(f"{name}.frag", constants).live.text
+    assert warnings((VERTEX, Source("display.vert").live.text), (FRAGMENT, shader)) == []
 
 
 @pytest.mark.parametrize("name", ["probe_balls", "deformed"])
@@ -96,4 +99,4 @@ def test_what_is_drawn_from_corners_compiles_without_a_warning(
 ) -> None:
     assert ctx.version_code >= 430
     stages = ((VERTEX, "vert"), (FRAGMENT, "frag"))
-    assert warnings(*((kind, Source(f"{name}.{stage}").text) for kind, stage in stages)) == []
+    assert warnings(*((kind, Source(f"{name}.{stage}").live.text) for kind, stage in stages)) == []

@@ -79,7 +79,7 @@ def test_no_shader_file_says_precise_itself() -> None:
 
 @pytest.mark.parametrize("way", [("generic", 1 << 16), ("generic", 0), ("baked", 1 << 16)])
 def test_every_float_that_the_kernel_assigns_is_precise(way: tuple[Tier, int]) -> None:
-    text = Source("trace.comp", EVERYTHING, texts=written_for("cornell", *way)).text
+    text = Source("trace.comp", EVERYTHING, texts=written_for("cornell", *way)).whole.text
     bodies = function_bodies(text)
     returns = re.sub(r"//[^\n]*", "", text).count("return")
     assert returns == sum(body.count("return") for body in bodies)  # none is missed

@@ -51,15 +51,16 @@ def validator() -> None:
 
 
 def objections(shader: Source) -> Iterator[str]:
-    """The objections of glslang to a shader, led back to its files."""
-    entry = shader.lines[-1].origin.rpartition(":")[0]
+    """The objections of glslang to a shader, and to its live code, led back to its files."""
+    entry = shader.whole.lines[-1].origin.rpartition(":")[0]
     command = ["glslangValidator", "--stdin", "-S", entry.rpartition(".")[2]]
-    done = subprocess.run(command, input=shader.text, capture_output=True, text=True, timeout=250)
-    for line in done.stdout.splitlines():
-        if line != "stdin":
-            yield shader.explain(line)
-    yield from done.stderr.splitlines()
-    assert done.returncode == 0 or done.stdout.count("ERROR")
+    for code in (shader.whole, shader.live):
+        done = subprocess.run(command, input=code.text, capture_output=True, text=True, timeout=250)
+        for line in done.stdout.splitlines():
+            if line != "stdin":
+                yield code.explain(line)
+        yield from done.stderr.splitlines()
+        assert done.returncode == 0 or done.stdout.count("ERROR")
 
 
 def in_es(constants: dict[str, bool | int], texts: dict[str, str] | None = None) -> Source:

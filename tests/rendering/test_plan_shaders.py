@@ -16,6 +16,6 @@ def test_the_shaders_of_a_plan_are_those_that_its_renderer_compiles(context: Con
     renderer = Renderer(scene, settings, context, layering="groups")
     plan, options = renderer.plan, KernelOptions(renderer.pipeline, "generic")
     ahead = shaders_of(plan, tree_of(plan.facts), options, uniform_bytes(context.gl))
-    wanted = [shader.text for shader in renderer.shaders]
+    wanted = [shader.live.text for shader in renderer.shaders]
     renderer.release()
-    assert [shader.text for shader in ahead] == wanted
+    assert [shader.live.text for shader in ahead] == wanted

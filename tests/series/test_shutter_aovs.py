@@ -88,7 +88,7 @@ def test_a_kernel_that_changes_between_samples_keeps_their_aovs(context: Context
     kernels = set()
     while renderer.lacks(20):
         renderer.step(1)
-        kernels.add(renderer.shaders[-1].text)
+        kernels.add(renderer.shaders[-1].whole.text)
     found = renderer.image().aovs["albedo"]
     renderer.release()
     assert len(kernels) > 1

@@ -36,6 +36,6 @@ def test_kernels_of_probes_compile_without_a_warning(
     reuse = {"RESAMPLES": True, "REUSES_OWN": True, "REUSES_NEAR": 2, "UNBIASED": True}
     constants = {**FEATURE_SETS[features], "HAS_PROBES": True, **reuse}
     (compute,) = sources("compute", constants, written_for(), render_pass)
-    assert imprecise(compute.text) == []
-    assert computed_returns(compute.text) == []
-    assert warnings((COMPUTE, compute.text)) == []
+    assert imprecise(compute.whole.text) == []
+    assert computed_returns(compute.whole.text) == []
+    assert warnings((COMPUTE, compute.live.text)) == []

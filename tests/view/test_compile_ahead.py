@@ -65,7 +65,7 @@ def test_it_compiles_the_baked_kernel_of_the_window(
     assert wanted
     other = baked[0]._tracer.device_scene.baked()
     assert other
-    assert [one.text for one in wanted] == [one.text for one in other]
+    assert [one.live.text for one in wanted] == [one.live.text for one in other]
     name = context.renderer
     assert name in part
     with pytest.raises(ContextError, match="no route leads to a rival"):
