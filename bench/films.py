@@ -33,6 +33,9 @@ FILMS = {  # what moves, by scene
 def main(arguments: list[str] | None = None) -> int:
     """Print a row for each film; returns the exit code."""
     parser = parser_of("films", __doc__)
+    parser.add_argument(
+        "--scenes", nargs="+", choices=FILMS, default=[*FILMS], metavar="NAME", help="default: all"
+    )
     parser.add_argument("--frames", type=int, default=8, help="frames of a film (default: 8)")
     parser.add_argument("--samples", type=int, default=256, help="of a pixel (default: 256)")
     parser.add_argument("--size", type=int, default=256, help="width and height (default: 256)")
@@ -43,7 +46,7 @@ def main(arguments: list[str] | None = None) -> int:
 def _run(parsed: argparse.Namespace) -> None:
     renderer = ""
     print("| scene | film, s | renders of its stills, s | stills / film |\n|---|---|---|---|")
-    for name in FILMS:
+    for name in parsed.scenes:
         series = _series(name, parsed)
         with tempfile.TemporaryDirectory() as folder:
             start = time.perf_counter()

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from glrt.gpu.context import Context
-from glrt.gpu.glsl import Source
-from glrt.gpu.live_code import live_lines
+from glrt.gpu.glsl import Source, shader_files
+from glrt.gpu.live_code import _Shader, live_lines
 from glrt.image.sources import load
 from glrt.rendering.renderer import Renderer
 from glrt.settings import settings_for
@@ -153,7 +153,8 @@ def statement(numbers: random.Random, depth: int) -> str:
     ).format(*parts, c=condition)  # fmt: skip
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.slow_cases("0", "2", "3")
+@pytest.mark.parametrize("seed", range(4))
 def test_random_functions_do_the_same(ctx: moderngl.Context, seed: int) -> None:
     numbers = random.Random(seed)
     names, text = [], "int counted = 0;\n"
@@ -183,11 +184,17 @@ def test_random_functions_do_the_same(ctx: moderngl.Context, seed: int) -> None:
     assert len(set(found[0].tolist())) > FUNCTIONS / 4
 
 
-@pytest.mark.parametrize("features", ["everything", "nothing"])
-def test_each_kernel_is_understood(features: str) -> None:
-    source = Source("trace.comp", FEATURE_SETS[features], texts=written_for())
-    share = len(source.live.text) / len(source.whole.text)
-    assert share < {"everything": 0.99, "nothing": 0.5}[features]
+def test_each_shader_is_understood() -> None:
+    entries = [path.name for path in shader_files() if path.suffix in (".comp", ".frag", ".vert")]
+    assert len(entries) > 30
+    for entry in entries:
+        source = Source(entry, FEATURE_SETS["nothing"], texts=written_for())
+        assert list(_Shader([line.text for line in source.whole.lines]).live())
+
+
+def test_a_kernel_without_features_is_half_as_long() -> None:
+    source = Source("trace.comp", FEATURE_SETS["nothing"], texts=written_for())
+    assert len(source.live.text) < 0.5 * len(source.whole.text)
 
 
 @pytest.mark.slow

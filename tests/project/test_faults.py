@@ -133,7 +133,7 @@ def test_a_kernel_that_the_driver_refuses_exits_4_with_file_and_line(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     read = glsl.read
-    broken = read("lights/sampling.glsl") + "\nvec3 broken() { return nonsense; }\n"
+    broken = read("lights/sampling.glsl") + "\nconst int BROKEN = nonsense;\n"
     monkeypatch.setattr(
         glsl, "read", lambda name: broken if name == "lights/sampling.glsl" else read(name)
     )

@@ -93,7 +93,7 @@ def test_the_renders_use_every_feature() -> None:
 
 
 @pytest.mark.slow_cases("by constants", "by nets", "by own counts")
-@pytest.mark.slow_cases("caustics", "shared places", "hazy by *", "drawn")
+@pytest.mark.slow_cases("caustics", "shared places", "hazy", "hazy by *", "drawn", "mapped")
 @pytest.mark.parametrize("name", RENDERS)
 def test_the_kernel_of_a_profile(software: Context, usual: Image, name: str) -> None:
     """Other tests render by these: features that a scene leaves out change no bit."""

@@ -223,7 +223,7 @@ def test_settings_alone_pack_no_scene_and_moves_assemble_no_kernel(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     with rendering(everything(), context) as renderer:
-        monkeypatch.setattr(Source, "lines", None)
+        monkeypatch.setattr(Source, "whole", None)
         assert renderer.update(RESTARTING["a millionth of a step"]) is Cost.RESTART
         monkeypatch.setattr(device_scene, "pack_scene", None)
         assert renderer.update(seed=3, width=20) is Cost.RESTART

@@ -102,6 +102,6 @@ def pytest_testnodedown(node: object) -> None:
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
     if chance := sum(_booked):
-        text = f"chance of a false alarm, were the seeds drawn anew: {chance:.1e}"
+        text = f"chance of a false alarm with other seeds: {chance:.1e}"
         excess = f", which is above {LIMIT:g}" if chance > LIMIT else ""
         terminalreporter.write_line(text + excess)
