@@ -6,7 +6,8 @@ Modules, each importing only what stands above it:
 - xlib: survives the loss of an X server
 - context_turns: contexts that take turns in one thread
 - structs: GLSL structs read as numpy dtypes
-- branches: a shader function as a tree of conditions and calls
+- branch_nodes: nodes of the tree of a shader function: conditions, calls
+- branches: parses a shader function into this tree
 - constant_values: expressions whose value constants decide
 - live_code: leaves out what cannot run
 - glsl: shader files put together into what the driver gets

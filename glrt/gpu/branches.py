@@ -1,11 +1,24 @@
-"""The branches of a shader function: a tree of conditions, calls and where each stands in its text.
+"""Parse a shader function into a tree of its branches.
 
-It holds no more than what decides which code can run. Arithmetic is a `Leaf` with the names in it.
+The tree holds no more than what decides which code can run. Arithmetic is a `Leaf` with the names
+in it.
 """
 
 import re
 from functools import lru_cache
-from typing import Literal, NamedTuple
+
+from glrt.gpu.branch_nodes import (
+    Block,
+    Branch,
+    Choice,
+    Joined,
+    Kind,
+    Leaf,
+    Loop,
+    Node,
+    Simple,
+    Statement,
+)
 
 _TOKEN = re.compile(
     r"//[^\n]*|[A-Za-z_]\w*|\.?\d(?:[eE][-+]|[\w.])*|&&|\|\||\+\+|--|<<=?|>>=?|[-+*/%&|^=!<>]=|\S"
@@ -13,87 +26,9 @@ _TOKEN = re.compile(
 _RELATIONS = ("==", "!=", "<", ">", "<=", ">=")
 _ASSIGNMENTS = ("=", "+=", "-=", "*=", "/=", "%=", "&=", "|=", "^=", "<<=", ">>=")
 _CLOSING = {"(": ")", "[": "]", "{": "}"}
+_CONDITIONS = ("?", "&&", "||", "{", "}")
 _JUMPS = ("return", "break", "continue", "discard")
 _STEPS = ("++", "--")
-
-
-# A single token; one call, whose arguments are pure; an expression in parentheses.
-Kind = Literal["word", "call", "group", "other"]
-
-
-class Leaf(NamedTuple):
-    """An operand, or arithmetic with several: `x`, `a + f(b)`, `vec3(0.0)`."""
-
-    start: int  # offsets in the text of the function
-    end: int
-    names: tuple[str, ...]  # outside of its parts
-    parts: "tuple[Node, ...]"  # in brackets, or the two sides of an assignment
-    is_pure: bool  # calls nothing and assigns nothing
-    kind: Kind = "other"
-    first: str = ""  # the first token
-
-
-class Joined(NamedTuple):
-    """Parts joined by `&&` or `||`, where the later parts may not run; a comparison; a negation."""
-
-    start: int
-    end: int
-    sign: str
-    parts: "tuple[Node, ...]"
-    is_pure: bool
-
-
-class Choice(NamedTuple):
-    """`condition ? yes : no`."""
-
-    start: int
-    end: int
-    condition: "Node"
-    yes: "Node"
-    no: "Node"
-    is_pure: bool
-
-
-Node = Leaf | Joined | Choice
-
-
-class Simple(NamedTuple):
-    """A statement without statements in it: an assignment, a declaration, a call, a jump."""
-
-    start: int
-    end: int
-    jump: str | None  # return, break, continue or discard
-    parts: tuple[Node, ...]
-
-
-class Branch(NamedTuple):
-    """`if (condition) then else other`."""
-
-    start: int
-    end: int
-    condition: Node
-    then: "Statement"
-    other: "Statement | None"
-
-
-class Loop(NamedTuple):
-    """A `for` or a `while`."""
-
-    start: int
-    end: int
-    head: tuple[Node, ...]
-    body: "Statement"
-
-
-class Block(NamedTuple):
-    """Statements in braces."""
-
-    start: int
-    end: int
-    statements: "tuple[Statement, ...]"
-
-
-Statement = Simple | Branch | Loop | Block
 
 
 @lru_cache(maxsize=2048)
@@ -167,9 +102,25 @@ class _Parser:
             case "do" | "switch" | "case" | "default":
                 raise ValueError(f"{self._next} is not understood")
         jump = self._next if self._next in _JUMPS else None
+        if jump is None and (names := self._plain_names()):
+            return Simple(start, self._end, None, (Leaf(start, self._end, names, (), False),))
         self._at += jump is not None
         parts = self._list(";")
         return Simple(start, self._end, jump, parts)
+
+    def _plain_names(self) -> tuple[str, ...]:
+        """Pass a statement without conditions, and return its names; else stay, without names."""
+        names = list[str]()
+        for place in range(self._at, len(self._tokens)):
+            token = self._tokens[place][0]
+            if token == ";":
+                self._at = place + 1
+                return tuple(names)
+            if token in _CONDITIONS:
+                break
+            if token[0].isalpha() or token[0] == "_":
+                names.append(token)
+        return ()
 
     def _branch(self, start: int) -> Branch:
         self._take("if")

@@ -2,16 +2,8 @@
 
 from collections.abc import Callable
 
-from glrt.gpu.branches import (
-    Block,
-    Branch,
-    Joined,
-    Leaf,
-    Node,
-    Simple,
-    Statement,
-    body_of,
-)
+from glrt.gpu.branch_nodes import Block, Branch, Joined, Leaf, Node, Simple, Statement
+from glrt.gpu.branches import body_of
 
 Value = bool | int | None  # None: not known before the shader runs
 

@@ -11,19 +11,8 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
-from glrt.gpu.branches import (
-    Block,
-    Branch,
-    Choice,
-    Joined,
-    Leaf,
-    Loop,
-    Node,
-    Simple,
-    Statement,
-    body_of,
-    expression_of,
-)
+from glrt.gpu.branch_nodes import Block, Branch, Choice, Joined, Leaf, Loop, Node, Simple, Statement
+from glrt.gpu.branches import body_of, expression_of
 from glrt.gpu.constant_values import ConstantValues
 
 _FUNCTION = re.compile(r"(?:precise )?[A-Za-z_]\w*(?:\[\w*\])? (\w+)\(")
@@ -177,16 +166,12 @@ class _Walk:
             if node.other:
                 self.statement(node.other)
         elif node.other:
-            self._replace(node, node.then if value else node.other, is_alone)
+            chosen = node.then if value else node.other
+            self._cut(node.start, chosen.start)
+            self.statement(chosen, is_alone=is_alone)
+            self._cut(chosen.end, node.end)
         else:
             self._cut(node.start, node.end, ";" if is_alone else "")
-
-    def _replace(self, node: Branch, chosen: Statement, is_alone: bool) -> None:
-        """Leave the chosen one of two statements; in braces, as an `else` may stand behind it."""
-        opening, closing = ("{ ", " }") if is_alone else ("", "")
-        self._cut(node.start, chosen.start, opening)
-        self.statement(chosen, is_alone=False)
-        self._cut(chosen.end, node.end, closing)
 
     def _ends(self, statement: Statement | None) -> bool:
         """Return whether no statement behind this one can run."""
@@ -240,7 +225,7 @@ class _Walk:
             self._expression(node.no)
 
     def _cut(self, start: int, end: int, instead: str = "") -> None:
-        if end > start or instead:
+        if end > start:
             self.cuts.append(_Cut(start, end, instead))
 
 
