@@ -187,6 +187,7 @@ def glsl_wrls(
     return result
 
 
+@pytest.mark.slow_cases("1-True", "2-False")
 @pytest.mark.parametrize("is_delayed", [False, True])
 @pytest.mark.parametrize("frames", [1, 2])
 def test_the_shader_does_what_the_twin_does(
