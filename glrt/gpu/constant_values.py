@@ -99,17 +99,21 @@ def _literal(word: str) -> Value:
 
 
 def _related(sign: str, values: list[Value]) -> Value:
-    match sign, values:
-        case _, [*_] if None in values:
-            return None
-        case "!", [value]:
-            return not value
-        case "==", [left, right]:
-            return left == right
-        case "!=", [left, right]:
-            return left != right
-        case _, [int(left), int(right)]:
-            return {"<": left < right, ">": left > right, "<=": left <= right}.get(
-                sign, left >= right
-            )
-    return None
+    """Return a negation of one value, or a comparison of two."""
+    first, last = values[0], values[-1]
+    if first is None or last is None:
+        return None
+    match sign:
+        case "!":
+            return not first
+        case "==":
+            return first == last
+        case "!=":
+            return first != last
+        case "<":
+            return first < last
+        case ">":
+            return first > last
+        case "<=":
+            return first <= last
+    return first >= last

@@ -7,6 +7,7 @@ that a render does not change while somebody edits a shader. `files_reread` read
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from itertools import count
 from pathlib import Path
@@ -79,17 +80,19 @@ class Source:
         self._head, self._entry, self._texts = head, entry, tuple((texts or {}).items())
         self.key = (entry, version, *(constants or {}).items(), *self._texts, _edition[0])
 
-    @cached_property
+    @property
     def whole(self) -> Code:
         """All lines, each with its origin; RenderError if a file is missing."""
-        return Code(_assembled(self._head, self._entry, self._texts))
+        return self._assembled.whole
 
-    @cached_property
+    @property
     def live(self) -> Code:
         """The lines that can run with these constants: a driver compiles them in half the time."""
-        whole = self.whole.lines
-        found = live_lines([line.text for line in whole])
-        return Code([Line(text, whole[place].origin) for place, text in found])
+        return self._assembled.live
+
+    @cached_property
+    def _assembled(self) -> "_Assembled":
+        return _assembled(self._head, self._entry, self._texts)
 
 
 def read(name: str) -> str:
@@ -143,7 +146,7 @@ def with_precise_floats(text: str) -> str:
 
 def _assembled(
     head: tuple[str, ...], entry: str, texts: tuple[tuple[str, str], ...]
-) -> tuple[Line, ...]:
+) -> "_Assembled":
     """Return the lines of a shader, those of before if its files hold the same texts."""
     with _assembling:
         kept = _kept.pop((head, entry, texts), None)
@@ -154,18 +157,25 @@ def _assembled(
                 if _file(line.origin) != _file(lines[-1].origin):
                     lines.append(Line(f"// {line.origin}", line.origin))
                 lines.append(line)
-            kept = _Assembled(tuple(lines), files.were_read)
+            kept = _Assembled(Code(lines), files.were_read)
         _kept[head, entry, texts] = kept
         while len(_kept) > ASSEMBLED:
             _kept.pop(next(iter(_kept)))
-    return kept.lines
+    return kept
 
 
-class _Assembled(NamedTuple):
+@dataclass
+class _Assembled:
     """The lines of a shader, and the texts of the files that they were taken from."""
 
-    lines: tuple[Line, ...]
+    whole: Code
     were_read: dict[str, str]
+
+    @cached_property
+    def live(self) -> Code:
+        lines = self.whole.lines
+        found = live_lines([line.text for line in lines])
+        return Code([Line(text, lines[place].origin) for place, text in found])
 
     def is_of_these_files(self) -> bool:
         try:

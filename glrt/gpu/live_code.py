@@ -15,7 +15,7 @@ from glrt.gpu.branch_nodes import Block, Branch, Choice, Joined, Leaf, Loop, Nod
 from glrt.gpu.branches import body_of, expression_of
 from glrt.gpu.constant_values import ConstantValues
 
-_FUNCTION = re.compile(r"(?:precise )?[A-Za-z_]\w*(?:\[\w*\])? (\w+)\(")
+_FUNCTION = re.compile(r"[A-Za-z_]\w*(?:\[\w*\])? (\w+)\(")
 _CONSTANT = re.compile(r"const (?:bool|int) (\w+) = ([^;]+);")
 _NAME = re.compile(r"[A-Za-z_]\w*")
 _COMMENT = re.compile(r"//[^\n]*")

@@ -50,7 +50,7 @@ class Note:
         digest = hashlib.blake2b(digest_size=16)
         places = (f"{name}={os.environ.get(name)}" for name in _PLACES)
         words = driver.name, driver.version, driver.way.name, *places, *more
-        for word in (*words, *(shader.whole.text for shader in shaders)):
+        for word in (*words, *(shader.live.text for shader in shaders)):
             digest.update(word.encode() + b"\0")
         self._path = cache_folder("kernels") / digest.hexdigest()
 

@@ -206,9 +206,9 @@ def test_the_kernel_compiles_without_a_warning(ctx: moderngl.Context, features: 
 def test_the_kernel_with_layers_compiles_without_a_warning(ctx: moderngl.Context) -> None:
     assert ctx.version_code >= 430
     for layers in ({"LAYERS": 6}, {"LAYERS": 3, "BY_LENGTH": True}):
-        text = Source("trace.comp", {**EVERYTHING, **layers}, texts=WRITTEN).whole.text
-        assert imprecise(text) == []
-        assert warnings((COMPUTE, text)) == []
+        source = Source("trace.comp", {**EVERYTHING, **layers}, texts=WRITTEN)
+        assert imprecise(source.whole.text) == []
+        assert warnings((COMPUTE, source.live.text)) == []
 
 
 @pytest.mark.slow_cases("everything-*")

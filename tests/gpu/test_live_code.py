@@ -198,6 +198,7 @@ def test_a_kernel_without_features_is_half_as_long() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("exact_kernels")
 @pytest.mark.parametrize("name", ["cornell", "metals", "spot", "lens", "sky", "drink", "smoke"])
 def test_pictures_have_the_same_bits(
     context: Context, name: str, monkeypatch: pytest.MonkeyPatch
