@@ -30,6 +30,7 @@ _texts: dict[Path, str] = {}  # texts of files that have been read
 ASSEMBLED = 8  # shaders whose lines are kept: a kernel has some 7,000, which take 0.2 s
 _editions = count(1)
 _edition = [0]  # number of the edition that is read
+_is_rereading = [False]
 
 
 class Line(NamedTuple):
@@ -87,8 +88,11 @@ class Source:
 
     @property
     def live(self) -> Code:
-        """The lines that can run with these constants: a driver compiles them in half the time."""
-        return self._assembled.live
+        """The lines that can run with these constants: a driver compiles them in half the time.
+
+        Within `files_reread` these are all lines, so that an author sees every error.
+        """
+        return self.whole if _is_rereading[0] else self._assembled.live
 
     @cached_property
     def _assembled(self) -> "_Assembled":
@@ -115,7 +119,7 @@ def files_reread() -> Iterator[None]:
     """Read files as they are now within the block; after an error, restore the earlier texts."""
     before, edition = dict(_texts), _edition[0]
     _texts.clear()
-    _edition[0] = next(_editions)
+    _edition[0], _is_rereading[0] = next(_editions), True
     try:
         yield
     except BaseException:
@@ -123,6 +127,8 @@ def files_reread() -> Iterator[None]:
         _texts.update(before)
         _edition[0] = edition
         raise
+    finally:
+        _is_rereading[0] = False
 
 
 @lru_cache(maxsize=512)

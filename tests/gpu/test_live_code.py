@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from glrt.gpu.context import Context
-from glrt.gpu.glsl import Source, shader_files
+from glrt.gpu.glsl import Source, files_reread, shader_files
 from glrt.gpu.live_code import _Shader, live_lines
 from glrt.image.sources import load
 from glrt.rendering.renderer import Renderer
@@ -215,3 +215,12 @@ def test_pictures_have_the_same_bits(
         renderer.release()
     assert pictures[0].any()
     np.testing.assert_array_equal(pictures[0], pictures[1])
+
+
+def test_an_author_of_shaders_gets_all_lines_of_files_that_are_read_again() -> None:
+    text = "int unused() {\n    return 1;\n}\nvoid main() {\n}"
+    source = Source("a.comp", texts={"a.comp": text})
+    assert "unused" not in source.live.text
+    with files_reread():
+        assert source.live == source.whole
+    assert "unused" not in source.live.text

@@ -75,7 +75,8 @@ def test_a_window_ends_at_any_moment(display: str, tmp_path: Path, moment: str, 
         assert Image.load(picture).recipe
     if moment == "saving_when_killed":
         return assert_gone(picture)
-    assert json.loads(preferences.read_text()) == {"theme": "light", "mode": "fly"}
+    tab = {"tab": "Scene"} if moment.endswith("with_edits") else {}  # which the edit has opened
+    assert json.loads(preferences.read_text()) == {"theme": "light", "mode": "fly", **tab}
     assert list(tmp_path.rglob(".glrt-*")) == []
     assert len(kept_edits(tmp_path)) == (moment in ("terminated_with_edits", "dragging"))
     if moment == "choosing":

@@ -82,6 +82,7 @@ def dialogs_of_the_desktop_open_and_save(hand: Hand) -> None:
             update={"render": hand.session.scene.render.model_copy(update=SMALL)}
         )
         choose("...##save", folder / "shot.exr")
+        hand.there(app.files.finish_picture)
         assert read_recipe(folder / "shot.exr").scene == hand.session.scene
         choose("...##open", folder / "shot.exr")
         assert app.files.source == str(folder / "shot.exr")

@@ -25,7 +25,7 @@ from glrt.view import event_wait
 from glrt.view.controls import replaced
 from glrt.view.window import Window
 
-FRAMES = 12  # after which the picture has samples, and what the moment needs begins
+FRAMES = 12  # with samples, after which the moment is brought about
 RESTED = 10  # pauses without a frame
 Act = Callable[[Window, int], None]  # what is done in a frame, by its number
 
@@ -252,9 +252,13 @@ def run(moment: str) -> int:
         window.app.prefer(replaced(window.app.preferences, mode="fly"))
         act(window, next(frames))
 
+    def swapped(window: Window) -> None:
+        if window.app.session.samples or window.app.shows_start:
+            act(window, next(frames))
+
     def params(window: Window) -> Any:
         result = made(window)
-        result.callbacks.after_swap = lambda: act(window, next(frames))
+        result.callbacks.after_swap = lambda: swapped(window)
         result.callbacks.post_init = lambda: open_and_act(window)
         return result
 
