@@ -160,13 +160,12 @@ class _Walk:
 
     def _branch(self, node: Branch, is_alone: bool) -> None:
         value = self._values.of(node.condition)
-        if value is None or (value and not node.other):
+        if value is None:
             self._expression(node.condition)
             self.statement(node.then)
             if node.other:
                 self.statement(node.other)
-        elif node.other:
-            chosen = node.then if value else node.other
+        elif chosen := node.then if value else node.other:
             self._cut(node.start, chosen.start)
             self.statement(chosen, is_alone=is_alone)
             self._cut(chosen.end, node.end)

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from glrt.gpu.context import Context
-from glrt.gpu.glsl import read
+from glrt.gpu.glsl import Source, read
 from glrt.image.sources import load
 from glrt.rendering.pipelines import Variant
 from glrt.rendering.renderer import Renderer
@@ -151,14 +151,38 @@ def assert_same_program(
     context: Context, scene: str, texts: dict[str, str], **settings: Any
 ) -> None:
     """The driver makes the same of a kernel with these files as without."""
-    plain, *others = equally_long(lambda: program_of(context, scene, {}, **settings), 4)
-    compiled = (program_of(context, scene, texts, **settings) for _ in range(TRIES))
+    assert_same(
+        lambda: program_of(context, scene, {}, **settings),
+        lambda: program_of(context, scene, texts, **settings),
+    )
+
+
+def assert_same(program: Callable[[], Any], other: Callable[[], Any]) -> None:
+    """Two programs are the same to the byte, except what differs between two of one text."""
+    plain, *others = equally_long(program, 4)
+    compiled = (other() for _ in range(TRIES))
     found = next((each for each in compiled if len(each) == len(plain)), None)
     assert found is not None, "all are longer or shorter"
     hashes = differing([plain, *others])
     assert hashes.mean() < 0.03
     beyond = np.flatnonzero((found != plain) & ~hashes)
     assert len(beyond) <= UNDEFINED, beyond
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "scene",
+    ["cornell", "lamps", "lens", "metals", "gloss", "sky", "smoke", "spot", "weekend"],
+)
+def test_code_that_is_left_out_changes_no_byte(
+    context: Context, monkeypatch: pytest.MonkeyPatch, scene: str
+) -> None:
+    def of_all_lines() -> Any:
+        with monkeypatch.context() as patch:
+            patch.setattr(Source, "live", Source.whole)
+            return program_of(context, scene, {})
+
+    assert_same(lambda: program_of(context, scene, {}), of_all_lines)
 
 
 @pytest.mark.slow
