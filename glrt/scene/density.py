@@ -11,7 +11,7 @@ from glrt.settings import Cost, Editable
 
 
 class Density(Value):
-    """A grid of densities, (z, y, x), from an .npy file, an OpenVDB file or an array.
+    """A grid of densities, (z, y, x), from an .npy, OpenVDB or NanoVDB file, or an array.
 
     Its voxels fill the box from `min` to `max`, which lies in the frame of the object that holds
     the medium. Between the middles of voxels the density is interpolated, and outside of the box it
@@ -20,10 +20,10 @@ class Density(Value):
 
     file: NamedGrid = Field(
         description="path of an .npy file: densities of float16 or float32, (z, y, x), at least 0; "
-        "or of an OpenVDB file, .vdb, with the extra `volumes`"
+        "or of a NanoVDB file, .nvdb; or, with the extra `volumes`, of an OpenVDB file, .vdb"
     )
     grid: Name | None = Field(
-        None, description="name of the grid of an OpenVDB file that holds several"
+        None, description="name of the grid of an OpenVDB or NanoVDB file that holds several"
     )
     min: Vector | None = Field(
         None, description="lowest corner of the box, in the object's frame; default: the object's"

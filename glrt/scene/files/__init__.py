@@ -9,5 +9,6 @@ Modules, each importing only what stands above it:
 - named_meshes: meshes named by a path
 - named_cameras: cameras named by a path
 - vdb_grids: grids of OpenVDB files
+- nvdb_grids: grids of NanoVDB files
 - named_grids: grids of densities named by a path
 """

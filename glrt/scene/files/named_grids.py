@@ -13,11 +13,15 @@ from pydantic import BeforeValidator, Field, PlainSerializer, PrivateAttr, WithJ
 
 from glrt.core.errors import ContentError
 from glrt.scene.files.named_files import PATH_SCHEMA, NamedFile, by_path, to_path
-from glrt.scene.files.vdb_grids import SUFFIX, decode_vdb
+from glrt.scene.files.nvdb_grids import SUFFIX as NANO_VDB
+from glrt.scene.files.nvdb_grids import decode_nvdb
+from glrt.scene.files.vdb_grids import SUFFIX as OPEN_VDB
+from glrt.scene.files.vdb_grids import decode_vdb
 from glrt.scene.values import Name
 
 BRICK = 8  # voxels along an edge of a brick: shaders_glsl/media/grid.glsl
 MOST_VOXELS = 1 << 25  # of a grid: 8 bytes each on the driver
+_DECODERS = {OPEN_VDB: decode_vdb, NANO_VDB: decode_nvdb}
 _DTYPES = ("float16", "float32")
 _DIMENSIONS = 3
 
@@ -30,7 +34,7 @@ class GridFile(NamedFile):
     Voxels are divided by the largest one, so that half floats keep 11 bits of each.
     """
 
-    grid: Name | None = Field(None, description="name of a grid of an OpenVDB file")
+    grid: Name | None = Field(None, description="name of a grid of an OpenVDB or NanoVDB file")
 
     _voxels: Voxels | None = PrivateAttr(None)
     _tops: Voxels = PrivateAttr(np.zeros((0, 0, 0), np.float16))
@@ -70,12 +74,12 @@ class GridFile(NamedFile):
 
     def decode(self, content: bytes) -> NDArray[Any]:
         """Return the array of the content of its file; ContentError if it is no grid."""
-        if PurePosixPath(self.file).suffix.lower() == SUFFIX:
-            return checked_grid(decode_vdb(content, self.grid, MOST_VOXELS))
+        if decoder := _DECODERS.get(PurePosixPath(self.file).suffix.lower()):
+            return checked_grid(decoder(content, self.grid, MOST_VOXELS))
         if self.grid is not None:
             raise ContentError(
-                f"`grid` chooses among the grids of an OpenVDB file, which ends in {SUFFIX}. Leave "
-                "it out"
+                "`grid` chooses among the grids of an OpenVDB or NanoVDB file, which ends in "
+                f"{' or '.join(_DECODERS)}. Leave it out"
             )
         return decode_grid(content)
 

@@ -15,6 +15,7 @@ _FLOATS = ("Tree_float_5_4_3", "Tree_float_5_4_3_HalfFloat")
 _HEADER = struct.Struct("<qIII?36x")  # magic, version, two of the library, places, identifier
 _PLACES = struct.Struct("<3q")  # where a grid begins, its voxels begin, and it ends
 _OLDEST = 222
+NO_VOXELS = "the grid has no active voxels. Write one that has some"
 _DAMAGED = "this is no OpenVDB file that tinyvdb can read, or it is damaged. Write it again"
 _TILES = (
     "the grid has tiles, cubes of one density without voxels, which tinyvdb leaves out. Fill them "
@@ -44,7 +45,7 @@ def decode_vdb(content: bytes, name: str | None, most: int) -> NDArray[np.float3
         names = [str(grid.name) for grid in grids]
     except Exception:  # its own type, and those of what it calls
         raise ContentError(_DAMAGED) from None
-    return _voxels(grids[_chosen(names, name)], most)
+    return _voxels(grids[chosen_grid(names, name)], most)
 
 
 def _end(content: bytes) -> int:
@@ -79,7 +80,11 @@ def _end(content: bytes) -> int:
     return last
 
 
-def _chosen(names: list[str], name: str | None) -> int:
+def chosen_grid(names: list[str], name: str | None) -> int:
+    """Return the place of a grid among those of a file; ContentError if it is not there.
+
+    None stands for the only one.
+    """
     if not names:
         raise ContentError("the file holds no grid. Write one into it")
     if name is not None and name not in names:
@@ -108,14 +113,18 @@ def _voxels(grid: Any, most: int) -> NDArray[np.float32]:
     if has_tiles:
         raise ContentError(_TILES)
     if not len(places):
-        raise ContentError("the grid has no active voxels. Write one that has some")
+        raise ContentError(NO_VOXELS)
     low = places.min(axis=0)
     size = [int(length) for length in places.max(axis=0) - low + 1]
-    count = size[0] * size[1] * size[2]
+    check_count(size[0] * size[1] * size[2], most)
+    found = np.zeros(size, np.float32)
+    found[tuple((places - low).T)] = values
+    return np.ascontiguousarray(found.transpose(2, 1, 0))
+
+
+def check_count(count: int, most: int) -> None:
+    """Raise ContentError if a box has too many voxels."""
     if count > most:
         raise ContentError(
             f"the box around its voxels has {count:,}, and {most:,} are the most. Scale it down"
         )
-    found = np.zeros(size, np.float32)
-    found[tuple((places - low).T)] = values
-    return np.ascontiguousarray(found.transpose(2, 1, 0))
