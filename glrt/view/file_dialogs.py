@@ -125,6 +125,7 @@ SCENES = [
     "*.toml *.glb *.gltf *.obj *.ply *.stl *.usd *.usda *.usdc *.usdz *.png *.exr *.hdr",
 ]
 MODELS = ["Models", "*.glb *.gltf *.obj *.ply *.stl *.usd *.usda *.usdc *.usdz"]
+GRIDS = ["Grids of densities", "*.npy *.nvdb *.vdb"]
 SCENE = ["Scene", "*.toml"]
 PICTURE = ["Picture", "*.png *.exr *.npy"]
 

@@ -129,6 +129,7 @@ SLOW = (  # half a second each, or more
     "words_filter_the_list_also_if_the_panels_were_hidden",
     "a_frame_goes_through_the_rows_in_sight_alone",
     "a_grid_is_shown_by_colours_whose_knots_are_changed",
+    "a_grid_is_chosen_for_the_fog_in_a_ball",
     "a_click_on_a_picture_opens_its_scene",
     "a_file_that_was_opened_lately_is_opened_again",
     "a_picture_of_another_size_is_exported_while_the_window_goes_on",

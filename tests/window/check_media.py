@@ -5,9 +5,11 @@ from imgui_bundle import imgui
 
 from glrt.scene.density import Density
 from glrt.scene.shapes.sphere import Sphere
+from glrt.view import file_dialogs
 from glrt.view.controls import replaced
 from glrt.view.edits.media_edits import with_medium
 from glrt.view.panels.media import VALUES
+from tests.window.check_files import BROWSER
 from tests.window.gestures import add, press, retype
 from tests.window.hand import Hand, check
 
@@ -99,6 +101,31 @@ def a_grid_is_shown_by_colours_whose_knots_are_changed(hand: Hand) -> None:
     hand.settle()
     assert session.scene.media["fog"].transfer is None
     assert any(session.scene.media["fog"].scattering)
+
+
+@check
+def a_grid_is_chosen_for_the_fog_in_a_ball(hand: Hand) -> None:
+    session, ctx, before = hand.session, hand.ctx, file_dialogs.PROGRAMS
+    add_fog(hand)
+    even = hand.pixels()
+    np.save("half.npy", np.repeat(np.float32([[[0, 4]]]), 8, axis=0))
+    file_dialogs.PROGRAMS = ()  # type: ignore[assignment]
+    try:
+        ctx.item_click("grid...")
+        ctx.yield_(3)
+        ctx.item_click(f"{BROWSER}/**/half.npy")
+        ctx.item_click(f"{BROWSER}/open")
+        hand.until(lambda: session.scene.media["fog"].density is not None)
+    finally:
+        file_dialogs.PROGRAMS = before
+    hand.settle()
+    assert not session.problem
+    density = session.scene.media["fog"].density
+    assert density
+    assert (density.file.file, density.scale) == ("half.npy", 0.25)
+    assert (hand.pixels() != even).mean() > 0.01
+    ctx.set_ref("Controls")
+    assert ctx.item_exists("another grid...")
 
 
 @check

@@ -6,6 +6,7 @@ Modules, each importing only what stands above it:
 - ready_materials: common metals, glasses, plastics and paints
 - keyframes: frames and keys of an animation
 - media_edits: media added, chosen and changed
+- grid_files: grids that become the density of a medium
 - file_camera: cameras of glTF files, read again and saved
 - sky_images: images that become the background
 - texture_images: images that become the color of an object

@@ -2,9 +2,11 @@
 
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
 
 from imgui_bundle import imgui
 
+from glrt.core.text import escaped
 from glrt.scene.density import Density
 from glrt.scene.materials.dielectric import Dielectric
 from glrt.scene.materials.nothing import Nothing
@@ -13,8 +15,10 @@ from glrt.scene.shapes.kinds import Shape
 from glrt.scene.transfer import MOST_OPACITY, Transfer
 from glrt.scene.values import LARGEST
 from glrt.settings import Cost
+from glrt.view import file_dialogs
 from glrt.view.app import App
 from glrt.view.controls import Control, choice, controls_of, switch
+from glrt.view.edits.grid_files import with_grid_file
 from glrt.view.edits.media_edits import (
     knots_of,
     with_fog,
@@ -82,6 +86,7 @@ def draw_medium(app: App, index: int, shape: Shape) -> None:
 def _values(app: App, name: str) -> None:
     imgui.separator_text(f"medium {name}")
     medium, opened = app.session.scene.media[name], app.session.opened.scene.media.get(name)
+    _grid(app, name)
     if medium.density:
         _scale(app, name, medium.density)
         is_colored = edited(COLORED, medium.transfer is not None, name)
@@ -94,6 +99,22 @@ def _values(app: App, name: str) -> None:
     changes = edited_fields(VALUES, dict(medium), f"medium {name}", opened)
     if changes:
         app.edit_scene(f"{name} {list(changes)}", partial(with_medium, name=name, **changes))
+
+
+def _grid(app: App, name: str) -> None:
+    """Draw the choice of a file of densities."""
+    density = app.session.scene.media[name].density
+    if density:
+        imgui.text_wrapped(escaped(density.file.file))
+    if button("another grid..." if density else "grid..."):
+        use = partial(_take_grid, app, name)
+        app.files.dialogs.ask_open("Choose a grid of densities", file_dialogs.GRIDS, use)
+    tip("The density varies as in a file of NumPy, NanoVDB or OpenVDB")
+    tag(Cost.RECOMPILE)
+
+
+def _take_grid(app: App, name: str, path: str) -> None:
+    app.edit_scene("", partial(with_grid_file, name=name, path=Path(path)))
 
 
 def _scale(app: App, name: str, density: Density) -> None:

@@ -4,6 +4,7 @@ from collections.abc import Collection, Iterator
 from pathlib import Path
 
 from glrt.scene.files.assets import AssetFolder
+from glrt.scene.files.named_grids import GridFile
 from glrt.scene.files.named_images import ImageFile, TextureImage
 from glrt.scene.files.named_meshes import MeshFile
 from glrt.scene.loading.file_contents import NamedContent
@@ -18,6 +19,7 @@ from glrt.scene.model_scene import model_scene
 from glrt.scene.scene import Scene
 from glrt.scene.scenefile.toml import read_scene
 from glrt.scene.schema.tables import toml_text
+from glrt.view.edits.grid_files import GRIDS, with_grid_read
 from glrt.view.edits.sky_images import SKIES, with_sky_image
 from glrt.view.edits.texture_images import TEXTURES, with_image_read
 from glrt.view.recovery.headers import Header
@@ -32,7 +34,7 @@ def scene_of(file: Path, header: Header, saved: Scene, folder: AssetFolder) -> S
     """Return the scene in a recovery file, with the content of its files.
 
     `saved` is the scene without the edits, whose files are not read again. Others lie in `folder`,
-    or are those of models or images that were added. Raises `SceneError` if one is wrong or
+    or are those of models, images or grids that were added. Raises `SceneError` if one is wrong or
     missing.
     """
     scene = _with_content_of(read_scene(file), saved)
@@ -42,6 +44,8 @@ def scene_of(file: Path, header: Header, saved: Scene, folder: AssetFolder) -> S
             scene = _with_content_of(scene, with_sky_image(saved, added))
         elif added.suffix.lower() in TEXTURES:
             scene = _with_content_of(scene, with_image_read(saved, added))
+        elif added.suffix.lower() in GRIDS:
+            scene = _with_content_of(scene, with_grid_read(saved, added))
         else:
             scene = _with_content_of(scene, model_scene(added, AssetFolder(added.parent), name))
     return with_files(scene, folder, str(file))
@@ -53,14 +57,14 @@ def _with_content_of(scene: Scene, other: Scene) -> Scene:
 
 
 def added_models(scene: Scene, saved: Scene) -> tuple[str, ...]:
-    """Return the paths of models and images that the saved scene does not name."""
+    """Return the paths of models, images and grids that the saved scene does not name."""
     known = {named for _, named in named_files(saved)}
     return tuple(dict.fromkeys(_origins(scene, known)))
 
 
 def _origins(scene: Scene, known: Collection[object]) -> Iterator[str]:
     for _, named in named_files(scene):
-        is_own = isinstance(named, MeshFile | ImageFile) or _was_dropped(named)
+        is_own = isinstance(named, MeshFile | ImageFile | GridFile) or _was_dropped(named)
         if is_own and named.origin and named not in known:
             yield str(named.origin)
 
