@@ -108,7 +108,7 @@ def a_grid_is_chosen_for_the_fog_in_a_ball(hand: Hand) -> None:
     session, ctx, before = hand.session, hand.ctx, file_dialogs.PROGRAMS
     add_fog(hand)
     even = hand.pixels()
-    np.save("half.npy", np.repeat(np.float32([[[0, 4]]]), 8, axis=0))
+    np.save("half.npy", np.repeat(np.array([[[0, 4]]], np.float32), 8, axis=0))
     file_dialogs.PROGRAMS = ()  # type: ignore[assignment]
     try:
         ctx.item_click("grid...")
