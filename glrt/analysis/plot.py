@@ -21,6 +21,7 @@ from glrt.core.install import install
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+    from matplotlib.ticker import Formatter
 
 FORMATS = (".svg", ".png")
 _STYLES = (  # colour, marker, dashes: one row for each curve of a chart
@@ -38,6 +39,8 @@ _STYLES = (  # colour, marker, dashes: one row for each curve of a chart
 IN_LEGEND, LINE = 5, 0.2  # lines that a chart of a sheet has room for; inches of one more
 LEAST_WIDTH = 5.2  # inches of a sheet: its title has room
 MOST_UPWARDS = 40  # letters of a line that is written upwards next to a chart of a sheet
+SMALL = 8.5  # points of the labels of a chart of a sheet
+MOST_ACROSS = 58  # letters of a line below it
 MOST_CURVES = len(_STYLES)  # curves that a chart can distinguish
 _HOLLOW = "hollow markers: 0"
 _LOOK: dict[Any, Any] = {
@@ -108,7 +111,8 @@ def save_sheet(charts: Sequence[Chart], path: Path, title: str, columns: int = 4
         for axes, chart in zip(grid, charts, strict=False):
             _draw(axes, chart)
             axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.22), fontsize=8)
-            axes.set_ylabel(fill(chart.y_label, MOST_UPWARDS), size=8.5)
+            axes.set_xlabel(fill(chart.x_label, MOST_ACROSS), size=SMALL)
+            axes.set_ylabel(fill(chart.y_label, MOST_UPWARDS), size=SMALL)
         for axes in grid[len(charts) :]:
             axes.set_axis_off()
         save_figure(figure, path)
@@ -128,6 +132,8 @@ def open_figure(size: tuple[float, float], font: float = 10.0) -> "Iterator[Figu
 def _draw(axes: "Axes", chart: Chart) -> None:
     axes.set_xscale("log")
     axes.set_yscale("log")
+    axes.xaxis.set_minor_formatter(_short_labels())
+    axes.yaxis.set_minor_formatter(_short_labels())
     axes.set_title(chart.title + (f"\n{chart.note}" if chart.note else ""))
     axes.set_xlabel(chart.x_label)
     axes.set_ylabel(chart.y_label)
@@ -142,6 +148,17 @@ def _draw(axes: "Axes", chart: Chart) -> None:
             width = 1.4
     if chart.limit is not None:
         axes.axvline(chart.limit, color="#555555", lw=1.0, label=chart.limit_label)
+
+
+def _short_labels() -> "Formatter":
+    """Labels between powers of ten, on axes that span about one: 20, not 2 x 10^1."""
+    from matplotlib.ticker import LogFormatter
+
+    class Short(LogFormatter):
+        def __call__(self, x: float, pos: int | None = None) -> str:
+            return f"{x:g}" if super().__call__(x, pos) else ""
+
+    return Short(labelOnlyBase=False, minor_thresholds=(1, 0.4))
 
 
 def _draw_curve(axes: "Axes", curve: Curve, style: Any, bottom: float, width: float) -> None:
