@@ -135,6 +135,8 @@ def main() -> int:
     arguments = parser.parse_args()
     part, parts = map(int, arguments.part.split("/"))
     chosen = [mutant for mutant in mutants()[part - 1 :: parts] if arguments.k in mutant.bug]
+    if not chosen:
+        parser.error(f"no bug has the word {arguments.k!r}")
     if arguments.drawn:
         chosen = drawn(chosen, arguments.drawn, commit_of(ROOT))
     alive = survivors(chosen)
