@@ -10,6 +10,7 @@ from pathlib import Path
 from imgui_bundle import ImVec2, hello_imgui, imgui, portable_file_dialogs
 
 from glrt.core.text import escaped
+from glrt.scene.files.named_grids import SUFFIXES
 from glrt.view.state.folders import Listing, listing, nearest_folder
 
 _WIDTH, _ROWS = 34.0, 14.0  # in heights of a letter
@@ -125,7 +126,7 @@ SCENES = [
     "*.toml *.glb *.gltf *.obj *.ply *.stl *.usd *.usda *.usdc *.usdz *.png *.exr *.hdr",
 ]
 MODELS = ["Models", "*.glb *.gltf *.obj *.ply *.stl *.usd *.usda *.usdc *.usdz"]
-GRIDS = ["Grids of densities", "*.npy *.nvdb *.vdb"]
+GRIDS = ["Grids of densities", " ".join(f"*{suffix}" for suffix in SUFFIXES)]
 SCENE = ["Scene", "*.toml"]
 PICTURE = ["Picture", "*.png *.exr *.npy"]
 

@@ -22,6 +22,7 @@ from glrt.scene.values import Name
 BRICK = 8  # voxels along an edge of a brick: shaders_glsl/media/grid.glsl
 MOST_VOXELS = 1 << 25  # of a grid: 8 bytes each on the driver
 _DECODERS = {OPEN_VDB: decode_vdb, NANO_VDB: decode_nvdb}
+SUFFIXES = (".npy", *_DECODERS)  # of files of densities
 _DTYPES = ("float16", "float32")
 _DIMENSIONS = 3
 

@@ -14,7 +14,6 @@ from glrt.scene.scene import Scene
 from glrt.view.controls import made
 from glrt.view.edits.media_edits import with_medium
 
-GRIDS = (".npy", ".nvdb", ".vdb")  # suffixes of files of densities
 _USUAL = "density"  # name of the grid of densities in files that hold several
 
 

@@ -4,6 +4,7 @@ from collections.abc import Collection, Iterator
 from pathlib import Path
 
 from glrt.scene.files.assets import AssetFolder
+from glrt.scene.files.named_grids import SUFFIXES as GRIDS
 from glrt.scene.files.named_grids import GridFile
 from glrt.scene.files.named_images import ImageFile, TextureImage
 from glrt.scene.files.named_meshes import MeshFile
@@ -19,7 +20,7 @@ from glrt.scene.model_scene import model_scene
 from glrt.scene.scene import Scene
 from glrt.scene.scenefile.toml import read_scene
 from glrt.scene.schema.tables import toml_text
-from glrt.view.edits.grid_files import GRIDS, with_grid_read
+from glrt.view.edits.grid_files import with_grid_read
 from glrt.view.edits.sky_images import SKIES, with_sky_image
 from glrt.view.edits.texture_images import TEXTURES, with_image_read
 from glrt.view.recovery.headers import Header
