@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TypedDict, Unpack, get_args
+from typing import TypedDict, Unpack
 
 from glrt.cli.options import file_rules, is_automatic, settings_given
 from glrt.core.errors import UsageError
@@ -19,7 +19,7 @@ from glrt.image.resume import fitting, recipe_to_resume
 from glrt.image.sources import files_read, load_recipe, recipe_of
 from glrt.plan.combinations import Way, check, ways_of
 from glrt.process.command import since_start
-from glrt.rendering.pipelines import Tier
+from glrt.rendering.pipelines import TIERS, Tier
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.stopping import Limits, samples_limit
 from glrt.scene.frames import with_phong_of
@@ -27,8 +27,6 @@ from glrt.scene.instancing import Apart
 from glrt.scene.loading.scene_files import with_files_of
 from glrt.scene.scene import Scene, with_lights
 from glrt.settings import MAX_SAMPLES, Cost, Settings, settings_for
-
-TIERS: tuple[Tier, ...] = get_args(Tier)
 
 
 @dataclass(frozen=True)

@@ -31,12 +31,16 @@ class Programs:
 
         Each call needs a `give_back` when its user is done.
         """
-        key = tuple(shader.key for shader in shaders)
+        key = _key(shaders)
         held = self._held.pop(key, None) or _Held(compiled())
         held.users += 1
         self._held[key] = held
         self._free_idle()
         return held.kernel
+
+    def has(self, shaders: Sequence[Source]) -> bool:
+        """Whether the program of these shaders is in the cache."""
+        return _key(shaders) in self._held
 
     def give_back(self, kernel: AnyKernel) -> None:
         """Count one user less; the program stays in the cache for a while."""
@@ -49,3 +53,7 @@ class Programs:
         idle = [key for key, held in self._held.items() if not held.users]
         for key in idle[: max(len(idle) - IDLE, 0)]:
             self._held.pop(key).kernel.release()
+
+
+def _key(shaders: Sequence[Source]) -> tuple[object, ...]:
+    return tuple(shader.key for shader in shaders)

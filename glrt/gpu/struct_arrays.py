@@ -11,8 +11,8 @@ llvmpipe looks up the size of a level lane by lane, which takes longer than the 
 """
 
 from collections.abc import Collection, Mapping, Sequence
-from itertools import pairwise
-from typing import Any
+from itertools import accumulate, pairwise
+from typing import Any, NamedTuple
 
 import moderngl
 import numpy as np
@@ -23,6 +23,8 @@ Arrays = Mapping[str, Array]  # rows, by the name of their struct
 FILE = "scene_arrays.glsl"
 MOST_UNIFORM_BYTES = 65_536  # llvmpipe's limit; quads are 1.05 times as fast as in a texture
 LEAST_ROWS = 32
+READ = "ReadRows"  # the block of the fields of constant structs that are read
+MOST_READ = 32  # its rows
 MOST_DOUBLED = 64  # rows of a texture that grows to powers of two; beyond, in smaller steps
 
 _BITS = 9
@@ -36,8 +38,15 @@ def block_of(struct: str) -> str:
     return f"{struct}Rows"
 
 
+class Layout(NamedTuple):
+    """Which arrays a kernel has as constants, and the fields that it reads nonetheless."""
+
+    constant: Collection[str] = ()  # structs
+    read: Mapping[str, str] = {}  # a vec3 of constant structs
+
+
 def scene_arrays(
-    arrays: Arrays, numbered: Sequence[str], constant: Collection[str], uniform_bytes: int
+    arrays: Arrays, numbered: Sequence[str], layout: Layout, uniform_bytes: int
 ) -> str:
     """Return GLSL that declares the arrays and the functions by which the kernel reads them.
 
@@ -45,15 +54,19 @@ def scene_arrays(
     that are `numbered` share one numbering, in this order: `first_sphere()` is the number of the
     first, `is_sphere(number)` is true for this kind alone, and `up_to_sphere(number)` for this kind
     and earlier ones, if the number is that of a shape and not of a triangle. Structs that are
-    `constant`, or have no rows, are written into the text. Uniform blocks have at most
-    `uniform_bytes` bytes.
+    constant by the layout, or have no rows, are written into the text; fields that the layout reads
+    come from the block READ. Uniform blocks have at most `uniform_bytes` bytes.
     """
+    constant, first = layout.constant, _first_reads(arrays, layout)
     parts = ["layout(std140) uniform FrameBlock { Frame frame; };"]
+    if first:
+        parts.append(f"layout(std140) uniform {READ} {{ vec4 read_rows[{MOST_READ}]; }};")
     for struct, rows in arrays.items():
         if not len(rows):
             parts += [_nothing(struct, rows), _count(struct, "0")]
         elif struct in constant:
-            parts += [_constants(struct, rows), _count(struct, str(len(rows)))]
+            reads = (layout.read[struct], first[struct]) if struct in first else None
+            parts += [_constants(struct, rows, reads), _count(struct, str(len(rows)))]
         else:
             in_block = is_uniform(struct, rows, uniform_bytes)
             parts.append(_uniform(struct, rows) if in_block else _texture(struct, rows))
@@ -71,10 +84,21 @@ TEXTURED = (
 COUNTED = ("Node", "Slot", "Light")  # by the struct Frame, in addition to the numbered structs
 
 
+def read_content(arrays: Arrays, read: Mapping[str, str]) -> bytes:
+    """Return the content of the block READ; kernels have MOST_READ rows of it at most."""
+    values = np.concatenate([arrays[struct][field] for struct, field in read.items()])
+    rows = np.zeros((max(len(values), MOST_READ), 4), np.float32)
+    rows[: len(values), :3] = values
+    return rows.tobytes()
+
+
 def upload(
     gl: moderngl.Context, arrays: Arrays, constant: Collection[str], uniform_bytes: int
 ) -> dict[str, moderngl.Buffer | moderngl.Texture]:
-    """Return buffers and textures of the arrays as `scene_arrays` declares them, by name."""
+    """Return buffers and textures of the arrays as `scene_arrays` declares them, by name.
+
+    The block READ is not among them.
+    """
     return {
         block_of(struct): gl.buffer(uniform_content(rows))
         if is_uniform(struct, rows, uniform_bytes)
@@ -155,10 +179,33 @@ def _nothing(struct: str, rows: Array) -> str:
     return f"{struct} {struct.lower()}_at(int index) {{ return {zero}; }}"
 
 
-def _constants(struct: str, rows: Array) -> str:
+def _first_reads(arrays: Arrays, layout: Layout) -> dict[str, int]:
+    """Return the row of the block READ with which each struct begins that has rows there."""
+    lengths = [len(arrays[struct]) for struct in layout.read]
+    starts = accumulate(lengths, initial=0)
+    return {name: at for name, at, rows in zip(layout.read, starts, lengths, strict=False) if rows}
+
+
+def _constants(struct: str, rows: Array, reads: tuple[str, int] | None) -> str:
+    """Return the GLSL of constants; `reads` are a field and its first row in the block READ."""
+    getter = _getter(struct)
+    if reads:
+        field, first = reads
+        rows = rows.copy()
+        rows[field] = 0
+        name = struct.lower()
+        getter = "\n".join(
+            [
+                f"{struct} {name}_at(int index) {{",
+                f"    {struct} row = {name}_rows[index];",
+                f"    row.{field} = read_rows[{first} + index].xyz;",
+                "    return row;",
+                "}",
+            ]
+        )
     listed = ",\n    ".join(_constructor(struct, row) for row in rows)
     kind, name = f"{struct}[{len(rows)}]", f"{struct.lower()}_rows[{len(rows)}]"
-    return f"const {struct} {name} = {kind}(\n    {listed});\n{_getter(struct)}"
+    return f"const {struct} {name} = {kind}(\n    {listed});\n{getter}"
 
 
 def _uniform(struct: str, rows: Array) -> str:

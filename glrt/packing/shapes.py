@@ -135,6 +135,16 @@ PACKERS: dict[type, Callable[[Array, Any, Placing, int], None]] = {
 }
 NUMBERED = tuple(kind.__name__ for kind in PACKERS)  # structs, in the order of the numbering
 
+# The one field of each struct that depends on the place of the eye.
+PLACES = {
+    "Sphere": "center",
+    "Plane": "point",
+    "Quad": "corner",
+    "Disk": "center",
+    "Box": "center",
+    "Cylinder": "center",
+}
+
 UNSET = np.iinfo(np.int32).min  # in a field of a row that its packer must fill
 
 

@@ -19,6 +19,7 @@ from glrt.plan.plan import Plan
 from glrt.rendering.film import Film
 from glrt.rendering.kernel_switch import KernelSwitch
 from glrt.rendering.pass_film import Size
+from glrt.rendering.pipelines import Fast
 from glrt.rendering.schedule import (
     HEADLESS,
     DispatchPolicy,
@@ -142,10 +143,10 @@ class AdaptiveTracer(Tracer):
         super().drop_frame()
         self._frame = None
 
-    def bake(self) -> bool:
-        """Switch to a kernel with the shapes written in; False if there is none."""
+    def use_fast(self, tier: Fast) -> bool:
+        """Switch to a faster kernel; False if this one is as fast, or if there is none."""
         self.drop_frame()  # the first dispatch writes to it
-        return super().bake()
+        return super().use_fast(tier)
 
     def step(self, samples: int) -> None:
         """Add `samples` to the mean over pixels."""

@@ -32,12 +32,15 @@ from glrt.plan.plan import Plan
 from glrt.rendering.passes import LISTED, RADIANCE, RenderPass, Resolved
 from glrt.rendering.pipelines import (
     ENVIRONMENT,
-    SHAPES,
     SKY_TREE,
     TEXELS,
+    TIERS,
     VOXELS,
+    Fast,
     KernelOptions,
     Tier,
+    common_tier,
+    places,
     scene_text,
     sources,
     tier_for,
@@ -127,13 +130,13 @@ class DeviceScene:
         """The shader sources of the scene's kernel."""
         return self._shaders(self._texts)
 
-    def baked(self) -> list[Source] | None:
-        """The shader sources of a kernel with the shapes as constants.
+    def faster(self, tier: Fast) -> list[Source] | None:
+        """The shader sources of a faster kernel.
 
-        None if the kernel is baked already, or if the scene has too many shapes to bake.
+        None if the scene's kernel is as fast, or if the scene has too many shapes to bake.
         """
-        tier = tier_for(self._arrays, "baked")
-        return None if tier == self.tier else self._shaders(self._texts_of(tier))
+        is_slower = TIERS.index(self.tier) < TIERS.index(tier_for(self._arrays, tier))
+        return self._shaders(self._texts_of(tier)) if is_slower else None
 
     def shaders_of(self, render_pass: RenderPass) -> list[Source]:
         """The shader sources of another pass over the scene."""
@@ -159,9 +162,9 @@ class DeviceScene:
         """Whether both scenes can use the same kernel: equal constants and equal texts."""
         return (self._constants, self._texts) == (other._constants, other._texts)
 
-    def has_shapes_of(self, other: "DeviceScene") -> bool:
-        """Whether one baked kernel serves both scenes: their shapes are equal to the last bit."""
-        return all(same_rows(self._arrays[name], other._arrays[name]) for name in SHAPES)
+    def fast_tier_of(self, other: "DeviceScene") -> Fast | None:
+        """The fastest tier of which one kernel serves both scenes: what it writes is equal."""
+        return common_tier(self._arrays, other._arrays)
 
     def dispatch(
         self,
@@ -207,7 +210,7 @@ class DeviceScene:
         self._lost = self._resources["Lost"] = self._gl.buffer(bytes(4))
         known = before._kept_for(self._arrays, self._tree) if before else {}
         rest = {name: rows for name, rows in self._arrays.items() if block_of(name) not in known}
-        self._resources |= upload(self._gl, rest, self.tier)
+        self._resources |= upload(self._gl, rest, self.tier) | places(self._gl, self._arrays)
         fresh = {block_of(name) for name in STILL} & self._resources.keys()
         self._kept = known | {name: Shared(self._resources[name]) for name in fresh}
         self._resources |= {name: some.resource for name, some in self._kept.items()}

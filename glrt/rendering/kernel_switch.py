@@ -1,14 +1,14 @@
-"""Two kernels of one scene: a generic one that survives edits, and a baked one between edits."""
+"""Kernels of one scene: one that survives edits, and faster ones between edits."""
 
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 
 from glrt.core.errors import RenderError
 from glrt.gpu.context import Context
 from glrt.gpu.glsl import Source
 from glrt.gpu.programs import AnyKernel
-from glrt.rendering.pipelines import compiled
+from glrt.rendering.pipelines import Fast, compiled
 from glrt.rendering.schedule import DispatchRange, Schedule
 
 Dispatch = Callable[[AnyKernel, DispatchRange], None]
@@ -26,26 +26,33 @@ class KernelSwitch:
         self.kernel, self.schedule = ready(context, shaders, dispatch), schedule
         schedule.follow(self.kernel.pace)
         self.compile_seconds = time.perf_counter() - start
-        self._generic: AnyKernel | None = None
+        self._slow = self.kernel
+        self.fast: Fast | None = None  # the tier of the faster kernel in use
 
-    @property
-    def uses_fast_kernel(self) -> bool:
-        """Whether the baked kernel is in use."""
-        return self._generic is not None
-
-    def use_fast(self, shaders: Sequence[Source]) -> None:
-        """Use a baked kernel from the next frame on; after a RenderError the old one stays."""
+    def use_fast(self, shaders: Sequence[Source], tier: Fast) -> None:
+        """Use a faster kernel from the next frame on; after a RenderError the old one stays."""
         self.schedule.drop()  # the first dispatch writes to the frame that has begun
-        faster = ready(self._context, shaders, self._dispatch)
-        faster.pace.learn(self.kernel.pace)
-        self._generic, self.kernel = self.kernel, faster
+        faster, before = ready(self._context, shaders, self._dispatch), self.kernel
+        faster.pace.learn(before.pace)
+        self.kernel, self.fast = faster, tier
         self.schedule.follow(faster.pace)
+        if before is not self._slow:
+            self._context.programs.give_back(before)
+
+    def take_up(
+        self, tiers: Iterable[Fast], shaders: Callable[[Fast], list[Source] | None]
+    ) -> None:
+        """Use the first kernel of these tiers that is compiled already; `shaders` are its own."""
+        for tier in tiers:
+            text = shaders(tier)
+            if text and self._context.programs.has(text):
+                self.use_fast(text, tier)
+                return
 
     def release(self) -> None:
         """Give the programs back to the context."""
-        for kernel in (self.kernel, self._generic):
-            if kernel:
-                self._context.programs.give_back(kernel)
+        for kernel in (self.kernel, self._slow) if self.fast else (self.kernel,):
+            self._context.programs.give_back(kernel)
 
 
 def ready(context: Context, shaders: Sequence[Source], dispatch: Dispatch) -> AnyKernel:

@@ -1,29 +1,42 @@
 """The two ways to run the path tracer: a compute shader, or a fragment shader for OpenGL 4.1."""
 
 from collections.abc import Mapping, Sequence
-from typing import Literal, NamedTuple
+from typing import Literal, NamedTuple, get_args
 
 import moderngl
+import numpy as np
 
 from glrt.core.errors import ContextError
+from glrt.core.same_rows import same_rows
 from glrt.gpu import struct_arrays
 from glrt.gpu.context import Context, Pipeline
 from glrt.gpu.glsl import Source
 from glrt.gpu.program import FragmentKernel, Kernel, Resource
-from glrt.gpu.struct_arrays import Arrays, scene_arrays, uniform_bytes
-from glrt.packing.shapes import NUMBERED
+from glrt.gpu.struct_arrays import (
+    MOST_READ,
+    READ,
+    Arrays,
+    Layout,
+    read_content,
+    scene_arrays,
+    uniform_bytes,
+)
+from glrt.packing.shapes import NUMBERED, PLACES
 from glrt.packing.texel_texture import BITS, WIDTH
 from glrt.rendering.passes import RADIANCE, RenderPass, Resolved
 
-# "baked" writes the shapes into the kernel's text, so that each edit of them compiles; "generic"
-# reads them. Materials are never written: a colour is to change without compiling.
-Tier = Literal["generic", "baked"]
+# "baked" writes the shapes into the kernel's text, so that each edit of them compiles, and each
+# motion of the camera; "placed" writes all of them but their places, which it reads; "generic"
+# reads the shapes. Materials are never written: a colour is to change without compiling.
+Tier = Literal["generic", "placed", "baked"]
+Fast = Literal["placed", "baked"]
+TIERS: tuple[Tier, ...] = get_args(Tier)  # the fastest last
 ENVIRONMENT = "environment_image"  # the texture of the image of the sky
 SKY_TREE = "environment_tree"  # the texture of the tree that samples this image
 RESERVOIRS = "held_reservoirs"  # the texture of what samples keep for later ones
 TEXELS = "map_texels"  # the texture of all images on surfaces
 VOXELS = "grid_voxels"  # the texture of all grids of media
-MOST_BAKED = 32  # shapes
+MOST_BAKED = MOST_READ  # shapes
 SHAPES = (*NUMBERED, "Target", "Sides")  # arrays that follow from the shapes alone
 
 
@@ -59,8 +72,11 @@ def resolve(wanted: Pipeline, context: Context) -> Resolved:
 
 def tier_for(arrays: Arrays, wanted: Tier) -> Tier:
     """The tier that a scene gets: "generic" if it has more than MOST_BAKED shapes."""
-    shapes = sum(len(arrays[struct]) for struct in NUMBERED)
-    return "generic" if wanted == "baked" and shapes > MOST_BAKED else wanted
+    return wanted if _can_bake(arrays) else "generic"
+
+
+def _can_bake(arrays: Arrays) -> bool:
+    return sum(len(arrays[struct]) for struct in NUMBERED) <= MOST_BAKED
 
 
 def scene_text(gl: moderngl.Context, arrays: Arrays, tier: Tier) -> str:
@@ -70,7 +86,7 @@ def scene_text(gl: moderngl.Context, arrays: Arrays, tier: Tier) -> str:
 
 def text_of(arrays: Arrays, tier: Tier, most_bytes: int) -> str:
     """Like `scene_text`, for a driver whose uniform blocks hold `most_bytes` bytes."""
-    return scene_arrays(arrays, NUMBERED, _constant(tier), most_bytes) + _SKY
+    return scene_arrays(arrays, NUMBERED, _layout(tier), most_bytes) + _SKY
 
 
 _SKY = f"""
@@ -102,11 +118,31 @@ vec4 voxel_at(int index) {{
 
 def upload(gl: moderngl.Context, arrays: Arrays, tier: Tier) -> dict[str, Resource]:
     """Upload the arrays as the generated file declares them, by block and texture name."""
-    return dict(struct_arrays.upload(gl, arrays, _constant(tier), uniform_bytes(gl)))
+    return dict(struct_arrays.upload(gl, arrays, _layout(tier).constant, uniform_bytes(gl)))
 
 
-def _constant(tier: Tier) -> tuple[str, ...]:
-    return SHAPES if tier == "baked" else ()
+def _layout(tier: Tier) -> Layout:
+    if tier == "placed":
+        return Layout(NUMBERED, PLACES)
+    return Layout(SHAPES if tier == "baked" else ())
+
+
+def places(gl: moderngl.Context, arrays: Arrays) -> dict[str, Resource]:
+    """Upload the places of shapes as the tier "placed" reads them, if they may be written."""
+    return {READ: gl.buffer(read_content(arrays, PLACES))} if _can_bake(arrays) else {}
+
+
+def common_tier(arrays: Arrays, others: Arrays) -> Fast | None:
+    """The fastest tier that writes the same into the kernels of both scenes, to the last bit."""
+    if all(same_rows(arrays[name], others[name]) for name in SHAPES):
+        return "baked"
+    pairs = (
+        (arrays[struct][field], others[struct][field])
+        for struct in NUMBERED
+        for field in arrays[struct].dtype.names or ()
+        if field != PLACES.get(struct)
+    )
+    return "placed" if all(same_rows(*map(np.copy, pair)) for pair in pairs) else None
 
 
 def sources(

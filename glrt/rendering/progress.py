@@ -77,7 +77,7 @@ class Progress:
 
     @property
     def tier(self) -> Tier:
-        """Tier of the kernel that survives edits: "baked" has shapes as constants, or "generic"."""
+        """Tier of the kernel that survives edits: "generic", "placed" or "baked"."""
         return self._tracer.device_scene.tier
 
     @property
@@ -105,9 +105,14 @@ class Progress:
         return self._tracer.aovs.pixel(aov, x, y)
 
     @property
+    def running_tier(self) -> Tier:
+        """Tier of the running kernel, which may be faster than the one that survives edits."""
+        return self._tracer.switch.fast or self.tier
+
+    @property
     def is_baked(self) -> bool:
         """Whether the running kernel has the shapes written into it."""
-        return self.tier == "baked" or self._tracer.switch.uses_fast_kernel
+        return self.running_tier == "baked"
 
     @property
     def lost_particles(self) -> Losses:

@@ -23,7 +23,7 @@ from glrt.plan.plan import ONE, Layering, Weights
 from glrt.rendering.adaptive_tracer import kind_of
 from glrt.rendering.first_half import Halver, check_rest
 from glrt.rendering.layer_weights import Mixer, gathered, mixed
-from glrt.rendering.pipelines import PLAIN, KernelOptions, Tier, Variant, resolve
+from glrt.rendering.pipelines import PLAIN, Fast, KernelOptions, Tier, Variant, resolve
 from glrt.rendering.progress import Progress
 from glrt.rendering.schedule import ENOUGH, HEADLESS, INTERACTIVE, DispatchPolicy
 from glrt.rendering.screen.display import displayed
@@ -57,14 +57,15 @@ class Renderer(Progress):
 
         `overrides` are fields of Settings; the rest is in `settings`, or in the scene's `[render]`.
         The tier "baked" writes up to 32 shapes into the kernel: faster, but each edit of them
-        compiles. The pipeline is compute, or fragment for OpenGL 4.1. A `variant` of the kernel is
-        an experiment. `layering` by "groups" lets lamps change without a restart, by "lengths" it
-        lets the bounces be fewer. A `part` (k, n) renders the k-th of n parts of the samples, from
-        k = 1. `apart` selects meshes with trees of their own: moved without a new tree, but slower
-        to trace. `decisions` are stored in recipes: what chose a setting in the user's place, by
-        its name. With `opens_shutter` the camera's shutter blurs what its animation moves; without,
-        the scene stands still. Raises UsageError for settings that do not go together,
-        ContextError, RenderError, and SceneError for a scene beyond the driver.
+        compiles; "placed" compiles for no edit of their places or the camera's. The pipeline is
+        compute, or fragment for OpenGL 4.1. A `variant` of the kernel is an experiment. `layering`
+        by "groups" lets lamps change without a restart, by "lengths" it lets the bounces be fewer.
+        A `part` (k, n) renders the k-th of n parts of the samples, from k = 1. `apart` selects
+        meshes with trees of their own: moved without a new tree, but slower to trace. `decisions`
+        are stored in recipes: what chose a setting in the user's place, by its name. With
+        `opens_shutter` the camera's shutter blurs what its animation moves; without, the scene
+        stands still. Raises UsageError for settings that do not go together, ContextError,
+        RenderError, and SceneError for a scene beyond the driver.
         """
         if not isinstance(scene, Scene):
             raise UsageError(f"a Scene is wanted, got {scene!r}: glrt.load reads one")
@@ -155,14 +156,15 @@ class Renderer(Progress):
         (self.scene, self.settings), self._shutter, self.plan = after, shutter, plan
         return cost
 
-    def bake(self) -> bool:
+    def bake(self, tier: Fast = "baked") -> bool:
         """Switch to a faster kernel that has the shapes written into it; the bits stay the same.
 
-        After an edit of a shape or of the camera's place, the kernel from before continues at once.
-        Returns False if there is no faster kernel: this one is baked, or the shapes are too many.
+        After an edit of what is written, a slower kernel continues at once. The tier "placed"
+        writes no places: it stays where the camera or shapes are moved. Returns False if there is
+        no faster kernel: this one is as fast, or the shapes are too many.
         """
         with self.context.gl:
-            return self._tracer.bake()
+            return self._tracer.use_fast(tier)
 
     def step(self, samples: int) -> None:
         """Add `samples` to every pixel, at once if they fit; UsageError above `most_samples`."""

@@ -20,7 +20,7 @@ from glrt.rendering.film import Extent, Film
 from glrt.rendering.kernel_switch import KernelSwitch
 from glrt.rendering.particle_tracer import ParticleTracer, particles_for
 from glrt.rendering.pass_film import Array
-from glrt.rendering.pipelines import KernelOptions, Tier
+from glrt.rendering.pipelines import Fast, KernelOptions, Tier
 from glrt.rendering.probe_supply import ProbeSupply
 from glrt.rendering.raster import Raster
 from glrt.rendering.schedule import (
@@ -97,9 +97,8 @@ class Tracer:
         """
         after = (kind or type(self))(self._context, plan, self._options, self, hysteresis)
         is_same = after.device_scene.has_kernel_of(self.device_scene)
-        keeps_shapes = is_same and after.device_scene.has_shapes_of(self.device_scene)
-        if keeps_shapes and self.switch.uses_fast_kernel:
-            after.bake()
+        if is_same and self.switch.fast:
+            after.switch.take_up(after._fast_tiers(self), after.device_scene.faster)
         if self.film is not after.film:
             self.film.release()
         self.aovs.release(after.aovs)
@@ -193,12 +192,17 @@ class Tracer:
         self.aovs.restart(self._plan)
         self._tiers = {self.device_scene.tier}
 
-    def bake(self) -> bool:
-        """Switch to a kernel with the shapes written in; False if there is none."""
-        shaders = None if self.switch.uses_fast_kernel else self.device_scene.baked()
+    def use_fast(self, tier: Fast) -> bool:
+        """Switch to a faster kernel; False if this one is as fast, or if there is none."""
+        shaders = None if self.switch.fast == tier else self.device_scene.faster(tier)
         if shaders:
-            self.switch.use_fast(shaders)
+            self.switch.use_fast(shaders, tier)
         return shaders is not None
+
+    def _fast_tiers(self, before: "Tracer") -> list[Fast]:
+        """The tiers, fastest first, that may go on after an edit: none is faster than before."""
+        common, was = self.device_scene.fast_tier_of(before.device_scene), before.switch.fast
+        return ["baked", "placed"] if common == was == "baked" else ["placed"] if common else []
 
     def step(self, samples: int) -> None:
         """Add `samples` to every pixel at once, or in portions if they prove too many."""
@@ -276,7 +280,7 @@ class Tracer:
 
     def _advance(self, samples: int) -> None:
         self.film.advance(samples)
-        self._tiers.add("baked" if self.switch.uses_fast_kernel else self.device_scene.tier)
+        self._tiers.add(self.switch.fast or self.device_scene.tier)
 
     def _fits(self, samples: int) -> bool:
         """Whether the frame lost no sample to the loop limit, or has one, counted on the film."""

@@ -3,6 +3,7 @@
 Modules, each importing only what stands above it:
 
 - sweeps: values from one number to another
+- motion: how much of the shapes moves, and the kernel that pays then
 - series: the frames of a series, as scenes and settings
 - outputs: files of the frames and of the film
 - kept_frames: frames that were rendered before

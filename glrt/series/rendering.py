@@ -14,12 +14,9 @@ from glrt.rendering.pipelines import Tier
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.stopping import Interruption, Limits, render_to_limit
 from glrt.series.kept_frames import kept
+from glrt.series.motion import tier_of
 from glrt.series.outputs import Output
 from glrt.series.series import Series, Still
-
-# Pixels times samples times shapes of a frame, from which a kernel with the shapes written into it
-# pays, although it compiles for each frame in which shapes or camera move (docs/results/speed.md).
-MUCH_WORK = 32_000_000
 
 Watch = Callable[[int, Limits, Renderer], None]  # called with the number of the frame
 Watched = Callable[[Renderer], None]
@@ -88,8 +85,7 @@ class FrameRenderer:
         return None if self._interruption.signal is not None else image
 
     def _renderer_of(self, still: Still) -> Renderer:
-        is_much = _work(still) >= MUCH_WORK and not still.scene.is_blurred
-        tier: Tier = "baked" if is_much else "generic"
+        tier = tier_of(still.scene, still.settings, still.motion)
         if self._renderer and tier == self._tier:
             self._renderer.update(still.scene, **dict(still.settings))
             self._renderer.restart()
@@ -150,11 +146,6 @@ def kept_frame(series: Series, number: int, output: Output, options: RenderOptio
         return Frame(number, file, failure=str(error))
     record = kept(file, still, options.of(number))
     return Frame(number, file, still.label, record) if record else None
-
-
-def _work(still: Still) -> int:
-    width, height = still.settings.size
-    return width * height * still.settings.samples * max(1, len(still.scene.objects))
 
 
 def render_frames(

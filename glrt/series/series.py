@@ -3,6 +3,7 @@
 import itertools
 import math
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -13,6 +14,7 @@ from glrt.scene.camera import Camera
 from glrt.scene.frames import with_phong_of, with_values
 from glrt.scene.scene import Scene
 from glrt.scene.shapes.box import sine_and_cosine
+from glrt.series.motion import Motion, motion_of
 from glrt.series.sweeps import Sweep, is_setting, is_whole, setting_changes
 from glrt.settings import Settings, settings_for
 
@@ -27,6 +29,7 @@ class Still(NamedTuple):
     scene: Scene
     settings: Settings
     label: str
+    motion: Motion = "shapes"  # from frame to frame of its series
 
 
 @dataclass(frozen=True)
@@ -52,6 +55,14 @@ class Series:
     def count(self) -> int:
         """The number of frames."""
         return len(self.steps) or self.turns or self.scene.frames
+
+    @cached_property
+    def motion(self) -> Motion:
+        """What moves from frame to frame."""
+        if self.turns is not None:
+            return motion_of(self.scene, [("camera", "position")])
+        keys = [sweep.keys for sweep in self.sweeps] or self.scene.moved
+        return motion_of(self.scene, keys)
 
     def columns(self, count: int) -> int:
         """Return columns of a sheet: steps of the second of two sweeps, else a near square."""
@@ -106,11 +117,12 @@ class Series:
         if self.turns is None:
             scene = self.scene.at_frame(number)
             settings = with_phong_of(scene, self.scene.moved, settings)
-            return Still(scene, settings, self._moment(number))
+            return Still(scene, settings, self._moment(number), self.motion)
         scene = self.scene.at_frame(0).still
         degrees = TURN * number / self.turns
         camera = turned(scene.camera, degrees)
-        return Still(scene.model_copy(update={"camera": camera}), settings, f"{degrees:g} degrees")
+        scene = scene.model_copy(update={"camera": camera})
+        return Still(scene, settings, f"{degrees:g} degrees", self.motion)
 
     def _moment(self, number: int) -> str:
         animation = self.scene.animation
@@ -126,7 +138,7 @@ class Series:
         first = self.scene.at_frame(0).still
         scene = with_values(first, of_scene, f"frame {number}")
         settings = with_phong_of(scene, of_scene, settings_for(settings, **changes))
-        return Still(scene, settings, label)
+        return Still(scene, settings, label, self.motion)
 
 
 def chosen(count: int, frames: tuple[int, int] | None) -> range:

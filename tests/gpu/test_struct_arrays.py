@@ -44,6 +44,8 @@ def test_constants_uniform_blocks_and_textures_give_the_same_bits(
         pytest.skip("bits are promised on software drivers alone")
     scene = load(name)
     uniform = bits(scene, context, "generic", sampler)
+    if len(scene.objects) <= MOST_BAKED:
+        assert bits(scene, context, "placed", sampler) == uniform
     monkeypatch.setattr(pipelines, "MOST_BAKED", len(scene.objects))
     if len(scene.objects) <= 100:
         assert bits(scene, context, "baked", sampler) == uniform
@@ -58,6 +60,10 @@ def test_arrays_are_constants_uniform_blocks_or_textures() -> None:
     assert "const Plane plane_rows[5]" in baked
     assert "int plane_count() { return 5; }" in baked
     assert "uniform MaterialRows" in baked
+    placed = written_for("cornell", "placed")[FILE]
+    assert "const Plane plane_rows[5]" in placed
+    assert "uniform ReadRows { vec4 read_rows[32]; };" in placed
+    assert placed.count("    row.corner = read_rows[") == 1
     assert "usampler2D QuadRows" in written_for("cornell", uniform_bytes=0)[FILE]
     assert not any("buffer" in text for text in (uniform, baked))
 

@@ -11,7 +11,7 @@ import pytest
 from glrt.doctor.report import examine
 from glrt.gpu.context import Context
 from glrt.gpu.evaluate import Probe
-from glrt.gpu.struct_arrays import ROWS, scene_arrays, texture_of, write_rows
+from glrt.gpu.struct_arrays import ROWS, Layout, scene_arrays, texture_of, write_rows
 from glrt.image.image import Image
 from glrt.image.sources import load
 from glrt.packing.kernel_structs import STRUCTS
@@ -118,7 +118,7 @@ def test_the_first_rows_of_a_texture_are_written_again(ctx: moderngl.Context) ->
 
 def accessor(struct: str, rows: Any) -> str:
     """How a struct is read from a texture, without the frame."""
-    text = scene_arrays({struct: rows}, (), (), 0)
+    text = scene_arrays({struct: rows}, (), Layout(), 0)
     return "\n".join(line for line in text.splitlines() if "frame" not in line.lower())
 
 

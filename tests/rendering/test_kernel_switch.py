@@ -19,7 +19,7 @@ from glrt.settings import Cost
 from glrt.view.controls import replaced
 from glrt.view.edits.scene_edits import with_material
 from tests.support.builders import MATTE, scene_of, sphere
-from tests.support.mixed_scene import everything
+from tests.support.mixed_scene import OBJECTS, everything
 from tests.support.renders import SAMPLERS, rendering, same
 
 pytestmark = pytest.mark.usefixtures("exact_kernels")  # shared ones have no shapes written in
@@ -41,11 +41,11 @@ def made(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
 
 
 def moved(scene: Scene) -> Scene:
-    first, *others = (shape for shape in scene.objects if isinstance(shape, Sphere))
+    first = next(shape for shape in scene.objects if isinstance(shape, Sphere))
     aside = replaced(first, center=(0.1, 0.2, 0.3))
-    objects = (aside, *(shape for shape in scene.objects if shape is not first))
-    assert others
-    return replaced(scene, objects=objects)
+    return replaced(
+        scene, objects=tuple(aside if shape is first else shape for shape in scene.objects)
+    )
 
 
 def tier_of(image: Image) -> str:
@@ -77,6 +77,9 @@ def test_kernels_that_take_turns_give_the_bits_of_one(
     with rendering(everything(), context, **kind) as renderer:
         renderer.render(5)
         assert not renderer.is_baked
+        assert renderer.bake("placed")
+        assert renderer.running_tier == "placed"
+        renderer.render(9)
         assert renderer.bake()
         assert renderer.is_baked
         image = renderer.render(37).image()
@@ -137,6 +140,52 @@ def test_a_change_of_what_is_written_in_compiles_nothing(
         renderer.update(everything())
         assert renderer.bake()
         assert len(made) == 3, "a baked kernel is kept for a while"
+
+
+@pytest.mark.parametrize("edit", [moved, lambda scene: seen(scene, position=(0.3, 0.2, 3.0))])
+def test_a_kernel_that_reads_places_stays_where_things_move(
+    fresh: Context, made: list[Any], edit: Any
+) -> None:
+    """It is kept while a faster one has its turn."""
+    with (
+        rendering(everything(), fresh, **SMALL) as renderer,
+        rendering(edit(everything()), fresh, **SMALL) as plain,
+    ):
+        renderer.render(2).bake("placed")
+        assert not renderer.bake("placed")
+        assert renderer.bake()
+        assert len(made) == 3
+        assert renderer.update(edit(everything())) is Cost.RESTART
+        assert renderer.running_tier == "placed"
+        assert same(renderer.render(6).image(), plain.render(6).image())
+        renderer.update(everything())
+        assert renderer.running_tier == "placed"
+        assert len(made) == 3
+
+
+def test_a_kernel_that_reads_places_ends_its_turn_where_a_size_changes(
+    fresh: Context, made: list[Any]
+) -> None:
+    wider = [shape | {"radius": 0.7} if shape.get("radius") == 0.6 else shape for shape in OBJECTS]
+    with rendering(everything(), fresh, **SMALL) as renderer:
+        renderer.render(2).bake("placed")
+        assert renderer.update(everything(wider)) is Cost.RESTART
+        assert renderer.running_tier == "generic"
+        assert len(made) == 2
+
+
+@pytest.mark.parametrize("tier", ["placed", "baked"])
+def test_a_tier_of_its_own_gives_the_same_bits_from_every_place(
+    context: Context, tier: Any
+) -> None:
+    if not context.is_software:
+        pytest.skip("bits are promised on software drivers alone")
+    with rendering(everything(), context, tier=tier, **SMALL) as renderer:
+        for scene in (everything(), moved(everything())):
+            renderer.update(scene)
+            assert renderer.tier == tier
+            with rendering(scene, context, **SMALL) as plain:
+                assert same(renderer.render(5).image(), plain.render(5).image())
 
 
 @pytest.mark.parametrize(

@@ -17,7 +17,7 @@ import pytest
 
 from glrt.gpu import struct_arrays
 from glrt.gpu.program import Resource
-from glrt.gpu.struct_arrays import Arrays
+from glrt.gpu.struct_arrays import Arrays, Layout
 from glrt.plan import plan
 from glrt.plan.facts import SceneFacts
 from glrt.plan.features import Needs, needs_of
@@ -96,17 +96,17 @@ def _rounds_of_search(facts: SceneFacts, *rest: Any) -> int:
     return rounds_of_search(facts, *rest) + len(OF_SHAPES) - len(kinds)
 
 
-def _constant(tier: str) -> Collection[str]:
+def _layout(tier: str) -> Layout:
     """No array is written into a kernel, so that pictures of both tiers share it."""
     del tier
-    return ()
+    return Layout()
 
 
 SHARED = (
     (plan, "needs_of", _needs),
     (pipelines, "scene_arrays", _text),
     (pipelines, "struct_arrays", SimpleNamespace(upload=_upload)),
-    (pipelines, "_constant", _constant),
+    (pipelines, "_layout", _layout),
     (schedule, "rounds_of_search", _rounds_of_search),
     (aov_tracer, "rounds_of_search", _rounds_of_search),
 )

@@ -3,10 +3,11 @@
 from collections.abc import Callable
 from typing import Any
 
+from glrt.rendering.pipelines import Fast
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 from glrt.view.controls import replaced
-from glrt.view.state.idle_kernel import PAUSE
+from glrt.view.state.idle_kernel import PAUSES
 from glrt.view.state.preview_size import STILL
 from glrt.view.state.session import ANNOUNCED, Session
 
@@ -43,7 +44,7 @@ class Stage:
         self.played: list[Played] = []
         self.is_over = True
 
-    def __call__(self, _: Renderer) -> Any:
+    def __call__(self, _: Renderer, tier: Fast) -> Any:
         end = self.ends.pop(0) if len(self.ends) > 1 else self.ends[0]
         self.played.append(Played(end))
         self.played[-1].is_over = self.is_over
@@ -61,12 +62,13 @@ def frames(session: Session, count: int) -> None:
 
 
 def rested(session: Session, clock: Clock) -> bool:
-    """Let a pause pass; whether the faster kernel then has its turn."""
+    """Let a pause pass; whether the fastest kernel then has its turn."""
     frames(session, 1)
     clock.now += STILL
     frames(session, 1)  # at full size again, if the camera has moved
-    clock.now += PAUSE
-    frames(session, 3)
+    for pause in PAUSES.values():
+        clock.now += pause
+        frames(session, 3)
     assert session.renderer
     return session.renderer.is_baked
 

@@ -8,6 +8,7 @@ import pytest
 
 from glrt.gpu.context import Context
 from glrt.rendering import renderer, tracer
+from glrt.rendering.pipelines import Fast
 from glrt.rendering.renderer import Renderer
 from glrt.settings import settings_for
 from glrt.view.state.idle_kernel import IdleKernel
@@ -43,7 +44,7 @@ def opened(fresh: Context, clock: Clock) -> Iterator[Opening]:
     """Opens a session whose processes are played, and lets it get its first samples."""
     sessions: list[Session] = []
 
-    def opening(stage: Callable[[Renderer], Any], **ways: Any) -> Session:
+    def opening(stage: Callable[[Renderer, Fast], Any], **ways: Any) -> Session:
         scene = ways.pop("scene", everything())
         pipeline = ways.pop("pipeline", "auto")
         sizes = {"width": 24, "height": 16, "bounces": 3, "samples": 1000}

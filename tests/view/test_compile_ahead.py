@@ -29,14 +29,14 @@ def wait_for(process: CompileAhead) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("part", [None, "groups\n{}\n"], ids=["whole", "broken"])
+@pytest.mark.parametrize("part", [None, "groups baked\n{}\n"], ids=["whole", "broken"])
 def test_a_process_succeeds_where_the_driver_takes_the_kernel(
     context: Context, monkeypatch: pytest.MonkeyPatch, part: str | None
 ) -> None:
     if part:
-        monkeypatch.setattr(compile_ahead, "part_of", lambda _: part)
+        monkeypatch.setattr(compile_ahead, "part_of", lambda *_: part)
     renderer = resting(context, {"width": 24, "height": 24})
-    process = CompileAhead(renderer)
+    process = CompileAhead(renderer, "baked")
     wait_for(process)
     renderer.release()
     assert process.succeeded is (part is None)
@@ -44,7 +44,7 @@ def test_a_process_succeeds_where_the_driver_takes_the_kernel(
 
 def test_a_process_that_is_ended_is_gone(context: Context) -> None:
     renderer = resting(context, {"width": 16, "height": 16})
-    process = CompileAhead(renderer)
+    process = CompileAhead(renderer, "baked")
     number = process._process.pid
     process.end()
     renderer.release()
@@ -56,14 +56,14 @@ def test_it_compiles_the_baked_kernel_of_the_window(
     context: Context, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     renderer = resting(context, {"width": 40, "height": 32})
-    part = part_of(renderer)
+    part = part_of(renderer, "baked")
     renderer.bake()
-    wanted = renderer._tracer.device_scene.baked()
+    wanted = renderer._tracer.device_scene.faster("baked")
     baked: list[Renderer] = []
-    monkeypatch.setattr(Renderer, "bake", lambda renderer: baked.append(renderer))
+    monkeypatch.setattr(Renderer, "bake", lambda renderer, _: baked.append(renderer))
     compile_part(part)
     assert wanted
-    other = baked[0]._tracer.device_scene.baked()
+    other = baked[0]._tracer.device_scene.faster("baked")
     assert other
     assert [one.live.text for one in wanted] == [one.live.text for one in other]
     name = context.renderer

@@ -3,10 +3,10 @@
 import pytest
 
 from glrt.core.errors import RenderError
-from glrt.rendering.pipelines import MOST_BAKED
+from glrt.rendering.pipelines import MOST_BAKED, Fast
 from glrt.rendering.renderer import Renderer
 from glrt.view.state.compile_ahead import CompileAhead
-from glrt.view.state.idle_kernel import MOST, PAUSE
+from glrt.view.state.idle_kernel import MOST, PAUSES
 from tests.support.builders import MATTE, scene_of, sphere
 from tests.support.sessions import Clock, Opening, Stage, frames, rested, walked
 
@@ -19,11 +19,11 @@ def test_nothing_is_compiled_ahead_before_a_pause_nor_after_the_last_sample(
     for _ in range(4):
         session.edit(seed=session.settings.seed + 1)
         frames(session, 1)
-        clock.now += 0.9 * PAUSE
+        clock.now += 0.9 * PAUSES["placed"]
     session.edit(seed=0)
     while not session.is_done:
         frames(session, 1)
-    clock.now += 2 * PAUSE
+    clock.now += 2 * PAUSES["placed"]
     frames(session, 3)
     assert not stage.played
     session.edit(samples=100)
@@ -71,7 +71,7 @@ def test_a_process_that_failed_is_tried_again_after_the_next_edit(
 def test_where_no_process_can_be_started_the_window_goes_on(opened: Opening, clock: Clock) -> None:
     tried: list[Renderer] = []
 
-    def begin(renderer: Renderer) -> CompileAhead:
+    def begin(renderer: Renderer, _: Fast) -> CompileAhead:
         tried.append(renderer)
         raise OSError("no more processes")
 
@@ -90,20 +90,22 @@ def test_a_window_that_stood_still_once_does_not_again(
     session = opened(Stage())
     bake = Renderer.bake
 
-    def slow(renderer: Renderer) -> bool:
+    def slow(renderer: Renderer, tier: Fast) -> bool:
         clock.now += MOST
-        return bake(renderer)
+        return bake(renderer, tier)
 
     monkeypatch.setattr(Renderer, "bake", slow)
-    assert rested(session, clock)
-    session.edit(walked(session.scene))
-    assert not rested(session, clock)
+    assert session.renderer
+    for scene in (session.scene, walked(session.scene)):
+        session.edit(scene)
+        assert not rested(session, clock)
+        assert session.renderer.running_tier == "placed", "the kernel for which it stood still"
 
 
 def test_a_kernel_that_is_refused_here_leaves_the_other(
     opened: Opening, clock: Clock, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def refuse(_: Renderer) -> bool:
+    def refuse(*_: object) -> bool:
         raise RenderError("no")
 
     session = opened(Stage())

@@ -97,7 +97,7 @@ class Reporter:
 def warn_of(arguments: argparse.Namespace, film: Film) -> None:
     """Print the cautions of a series and of its first frame."""
     series = film.series
-    scene, settings, _ = series.still(0)
+    scene, settings, *_ = series.still(0)
     idle = [
         f"{option} has no effect here: {why}."
         for option, is_idle, why in (

@@ -17,6 +17,7 @@ from glrt.gpu.context import Choice, Context, open_context
 from glrt.image.recipe import Recipe
 from glrt.plan.plan import Layering
 from glrt.rendering.passes import Resolved
+from glrt.rendering.pipelines import Fast
 from glrt.rendering.renderer import Renderer
 from glrt.scene.loading.scene_files import with_stand_ins
 from glrt.settings import Settings, settings_for
@@ -27,10 +28,10 @@ _ROUTES: tuple[Choice, ...] = ("egl", "window")
 class CompileAhead:
     """The process that compiles, as the window controls it."""
 
-    def __init__(self, renderer: Renderer) -> None:
-        """Start to compile the baked kernel of a renderer; OSError if no process can be started."""
+    def __init__(self, renderer: Renderer, tier: Fast) -> None:
+        """Start to compile a kernel for a renderer; OSError if no process can be started."""
         with TemporaryFile("w+", encoding="utf-8") as part:
-            part.write(part_of(renderer))
+            part.write(part_of(renderer, tier))
             part.seek(0)
             self._process = subprocess.Popen(
                 [sys.executable, "-m", "glrt.view.state.compile_ahead"],
@@ -55,8 +56,8 @@ class CompileAhead:
         self._process.communicate()
 
 
-def part_of(renderer: Renderer) -> str:
-    """Return what a renderer traces, in two lines: its layering, and a recipe as JSON."""
+def part_of(renderer: Renderer, tier: Fast) -> str:
+    """Return a kernel to compile, in two lines: its layering and tier, and a recipe as JSON."""
     plan = renderer.plan
     recipe = Recipe(
         scene=plan.scene,
@@ -66,18 +67,20 @@ def part_of(renderer: Renderer) -> str:
         renderer=renderer.context.renderer,
         pipeline=renderer.pipeline,
     )
-    return f"{plan.layering}\n{recipe.to_json()}\n"
+    return f"{plan.layering} {tier}\n{recipe.to_json()}\n"
 
 
 def compile_part(part: str) -> None:
-    """Compile the baked kernel of a part, in the format of `part_of`.
+    """Compile the kernel of a part, in the format of `part_of`.
 
     Raises ContextError if the driver of the window cannot be opened in this process.
     """
     first, rest = part.split("\n", 1)
-    layering: Layering = next(name for name in get_args(Layering) if name == first)
+    words = first.split()
+    layering: Layering = next(name for name in get_args(Layering) if name == words[0])
+    tier: Fast = next(name for name in get_args(Fast) if name == words[1])
     with _ready(Recipe.from_json(rest, "The part to compile"), layering) as renderer:
-        renderer.bake()
+        renderer.bake(tier)
 
 
 @contextmanager
