@@ -58,7 +58,7 @@ class Series:
 
     @cached_property
     def motion(self) -> Motion:
-        """What moves from frame to frame."""
+        """Whether places or sizes of shapes change from frame to frame, or neither."""
         if self.turns is not None:
             return motion_of(self.scene, [("camera", "position")])
         keys = [sweep.keys for sweep in self.sweeps] or self.scene.moved
