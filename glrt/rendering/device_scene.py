@@ -163,7 +163,7 @@ class DeviceScene:
         return (self._constants, self._texts) == (other._constants, other._texts)
 
     def fast_tier_of(self, other: "DeviceScene") -> Fast | None:
-        """The fastest tier that writes the same into the kernels of both scenes, if there is one."""
+        """The fastest tier that writes the same into both kernels, if there is one."""
         return common_tier(self._arrays, other._arrays)
 
     def dispatch(
