@@ -221,11 +221,11 @@ class App(Selection):
 
     def undo(self) -> None:
         """Undo the last gesture; the selection stays, or moves to an object that comes back."""
-        self._step(self.session.undo, self.undoes)
+        self._step(self.session.undo, self.undoes or "There is nothing more to undo")
 
     def redo(self) -> None:
         """Redo the gesture that was undone last."""
-        self._step(self.session.redo, self.redoes)
+        self._step(self.session.redo, self.redoes or "There is nothing more to redo")
 
     @property
     def undoes(self) -> str:
@@ -243,7 +243,7 @@ class App(Selection):
         before = self.session.scene.objects
         step()
         self.timeline.show(self.timeline.frame)
-        self.messages.report(told or "There is nothing more to undo or redo")
+        self.messages.report(told)
         self.selected = found_again(before, self.session.scene.objects, self.selected)
 
     @property

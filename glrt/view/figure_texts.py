@@ -19,7 +19,7 @@ def forecast(progress: Progress, target: float, samples: int) -> str:
     if needed > MAX_SAMPLES:
         return f"{percent_text(target)} takes more samples than a picture holds"
     more = f": raise samples to {needed:,}" if needed > samples else ""
-    return f"{percent_text(target)} in about {_duration(seconds)} of rendering{more}"
+    return f"{percent_text(target)} in about {_duration(seconds)} more{more}"
 
 
 def samples_text(done: int, wanted: int) -> str:

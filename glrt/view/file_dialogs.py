@@ -127,6 +127,7 @@ SCENES = [
 ]
 MODELS = ["Models", "*.glb *.gltf *.obj *.ply *.stl *.usd *.usda *.usdc *.usdz"]
 GRIDS = ["Grids of densities", " ".join(f"*{suffix}" for suffix in SUFFIXES)]
+PHOTOS = ["Images of radiance", "*.hdr *.exr"]
 SCENE = ["Scene", "*.toml"]
 PICTURE = ["Picture", "*.png *.exr *.npy"]
 

@@ -129,7 +129,9 @@ class Files(PictureFiles):
         with self.messages.reporting():
             self.session.edit(with_sky_image(self.session.scene, Path(path)))
             name = escaped(Path(path).name)
-            self.messages.report(f"{name} is the background; undo brings the former one back")
+            self.messages.report(
+                f"{name} is the background; objects and lamps stay; undo takes it away"
+            )
 
     def browse_open(self) -> None:
         """Show a dialog to choose a file to open."""

@@ -139,9 +139,9 @@ def test_the_forecast_is_that_of_noise() -> None:
     ("target", "samples", "told"),
     [
         (0.3, 64, "30 % is reached"),
-        (0.1, 260, "10 % in about 6 s of rendering"),
-        (0.1, 259, "10 % in about 6 s of rendering: raise samples to 260"),
-        (0.019, 256, "1.9 % in about 4 minutes of rendering: raise samples to 7,100"),
+        (0.1, 260, "10 % in about 6 s more"),
+        (0.1, 259, "10 % in about 6 s more: raise samples to 260"),
+        (0.019, 256, "1.9 % in about 4 minutes more: raise samples to 7,100"),
         (0.0001, 256, "0.01 % takes more samples than a picture holds"),
     ],
 )

@@ -95,9 +95,9 @@ def test_a_pipe_in_the_folder_is_not_read(tmp_path: Path) -> None:
     ("edits", "later", "told"),
     [
         (None, 60, "Edits of 12:05 were not saved."),
-        (1, 60, "1 edit of 12:05 was not saved."),
-        (5, 60, "5 edits of 12:05 were not saved."),
-        (5, 86_400, "5 edits of 4 March 2026, 12:05 were not saved."),
+        (1, 60, "1 edit, made until 12:05, was not saved."),
+        (5, 60, "5 edits, made until 12:05, were not saved."),
+        (5, 86_400, "5 edits, made until 4 March 2026, 12:05, were not saved."),
     ],
 )
 def test_the_question_names_time_and_number(edits: int | None, later: float, told: str) -> None:

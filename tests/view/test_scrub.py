@@ -49,7 +49,9 @@ def test_switches_and_vectors_are_not_dragged() -> None:
 
 
 def test_the_tooltip_says_what_a_double_click_goes_back_to() -> None:
-    assert gesture_texts(FOV)[-1] == f"A double click sets the default: {FOV.default:g}"
+    assert (
+        gesture_texts(FOV)[-1] == f"A double click on the label sets the default: {FOV.default:g}"
+    )
     assert gesture_texts(FOV.back_to(38.0))[-1].endswith("goes back to the scene's value: 38")
     assert gesture_texts(FOV.back_to(None)) == gesture_texts(FOV)
     assert gesture_texts(switch("it", "", Cost.FREE).back_to(True)) == []

@@ -102,7 +102,7 @@ class Job:
                 assert process.stdout
                 for line in process.stdout:
                     self._hear(line)
-            if process.returncode and not self.is_cancelled:
+            if not self.is_cancelled:
                 self._ended(process.returncode, told)
 
     def _hear(self, line: str) -> None:
@@ -113,14 +113,22 @@ class Job:
                 self.share, self.left = figures["progress"], figures["seconds_left"]
 
     def _ended(self, code: int, told: IO[str]) -> None:
-        """Take in why the command did not end well."""
+        """Take in why the command did not end well, or what it warns of."""
         told.seek(0)
         lines = [line for line in told.read().splitlines() if line.startswith("glrt: ")]
+        if not code:
+            self.note = escaped(" ".join(map(_warning, lines)))
+            return
         text = lines[-1].removeprefix("glrt: ") if lines else f"glrt ended with code {code}."
         if code == _NOT_REACHED:
             self.note = escaped(text)
         else:
             self.problem = escaped(text)
+
+
+def _warning(line: str) -> str:
+    text = line.removeprefix("glrt: ").removeprefix("caution: ")
+    return text[:1].upper() + text[1:]
 
 
 def _put(made: Path, path: Path) -> None:

@@ -14,8 +14,10 @@ from glrt.scene.values import Radiance
 from glrt.settings import Cost
 from glrt.view.app import App
 from glrt.view.controls import controls_of, replaced, switch
+from glrt.view.file_dialogs import PHOTOS
 from glrt.view.state.costs import cost_of_light
-from glrt.view.widgets.fields import edited, edited_fields
+from glrt.view.widgets.cost_badges import tag
+from glrt.view.widgets.fields import button, edited, edited_fields, tip
 
 BACKGROUND = {c.name: c for c in controls_of(Background)}
 SKY = {c.name: c for c in controls_of(ClearSky)}
@@ -30,6 +32,10 @@ _MORNING = Sun(elevation=40.0, azimuth=30.0)
 def draw_background(app: App) -> None:
     """Draw the kind of the background and its values."""
     background = app.session.scene.background
+    if button("another photo..." if background.image else "photo..."):
+        app.files.dialogs.ask_open("Choose an image of radiance", PHOTOS, app.files.ask_open)
+    tip("An image of all directions, .hdr or .exr, lights the scene; one may be dropped, too")
+    tag(Cost.RECOMPILE)
     if background.image:
         _image(app)
         return

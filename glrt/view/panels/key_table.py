@@ -26,6 +26,7 @@ _MOUSE = {  # in the picture, and on labels in the panel
     "Ctrl, 1 to 9": "keep the view under that number",
     "Alt, 1 to 9": "go back to the view of that number",
     "drag a label": "change its value; a double click there sets it back",
+    "Ctrl, click": "on a slider: type a value",
 }
 
 

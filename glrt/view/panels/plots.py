@@ -7,6 +7,7 @@ from imgui_bundle import ImVec2, ImVec4, hello_imgui, imgui, implot
 
 from glrt.core.memo import kept_for_the_same
 from glrt.plan.explanation import explain
+from glrt.plan.methods import BIASED
 from glrt.plan.plan import Plan
 from glrt.process.load import MISSING, LoadMeter
 from glrt.view.app import App
@@ -56,6 +57,8 @@ def figures(app: App) -> list[str]:
         forecast(progress, app.preferences.target_error, session.settings.samples),
         load_text(app.load),
     ]
+    if session.settings.method in BIASED:
+        lines.insert(3, f"of noise alone: {session.settings.method} leaves out or blurs some light")
     if app.pair.slot:
         lines.append(_slot_text(app.pair.slot))
     if progress.last and progress.last.nonfinite:

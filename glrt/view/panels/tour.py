@@ -28,8 +28,8 @@ STEPS = (
     ),
     (
         "Ask a pixel",
-        "P, then a click, shows the paths of a pixel and why it is bright; Escape ends that. "
-        "I shows its values, Ctrl and the wheel zoom.",
+        "P, then a click, shows the paths of a pixel and why it is bright; Escape, twice, ends "
+        "that. I shows its values, Ctrl and the wheel zoom.",
     ),
     (
         "Keep what you have",
@@ -38,6 +38,7 @@ STEPS = (
     ),
 )
 _WIDTH = 22.0  # em, the height of a letter
+_BELOW = 4.2  # em: from the top of the window, so that the toolbar stays in sight
 _LEAST = 14.0  # em: least width of lines next to the box
 
 
@@ -46,7 +47,7 @@ def draw_tour(app: App) -> None:
     if not app.preferences.tour or app.tour_step is None:
         return
     area = imgui.get_main_viewport()
-    place = area.pos + ImVec2(area.size.x - hello_imgui.em_size(1), hello_imgui.em_size(3))
+    place = area.pos + ImVec2(area.size.x - hello_imgui.em_size(1), hello_imgui.em_size(_BELOW))
     size = area.size.x, area.size.y
     when = imgui.Cond_.appearing if size == app.tour_beside else imgui.Cond_.always
     app.tour_beside = size

@@ -39,12 +39,12 @@ class Header:
         return f"{_MARK}{json.dumps(asdict(self))}\n"
 
     def told(self, now: float) -> str:
-        """Return what was not saved, as "2 edits of 14:03 were not saved."; `now` as `saved`."""
+        """Return a line as "2 edits, made until 14:03, were not saved."; `now` as `saved`."""
         then, today = datetime.fromtimestamp(self.saved), datetime.fromtimestamp(now)
         is_today = then.date() == today.date()
         at = f"{then:%H:%M}" if is_today else f"{then.day} {then:%B %Y, %H:%M}"
         count = f"{self.edits} edit{'s' * (self.edits != 1)}" if self.edits else "Edits"
-        return f"{count} of {at} {'was' if self.edits == 1 else 'were'} not saved."
+        return f"{count}, made until {at}, {'was' if self.edits == 1 else 'were'} not saved."
 
 
 def header_of(file: Path) -> Header | None:

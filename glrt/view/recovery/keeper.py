@@ -116,6 +116,7 @@ class Recovery:
             if files.session.scene is scene:
                 files.show(scene)
                 self.offers.pop(0)
+                files.messages.report("The edits are back; undo takes them away again")
                 is_safe = self.keep() or not files.is_other
                 (offer.discard if is_safe else offer.leave)()
 

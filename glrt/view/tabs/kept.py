@@ -1,5 +1,6 @@
 """Rows of settings and of preferences, which keep what is edited."""
 
+from dataclasses import replace
 from typing import Any
 
 from glrt.settings import Settings
@@ -8,7 +9,25 @@ from glrt.view.controls import Control, controls_of, replaced
 from glrt.view.state.preferences import Preferences
 from glrt.view.widgets.fields import edited_fields
 
+_METHODS = {  # a line on each, in the list of methods
+    "naive": "directions alone; noisy",
+    "nee": "points on lamps alone",
+    "mis": "both, weighed: the usual one",
+    "phong": "1975: one bounce, highlights",
+    "blinn": "1977: one bounce, highlights",
+    "whitted": "1980: mirrors and glass",
+    "whitted_tree": "1980, all branches",
+    "cook": "1984: blurred mirrors, lenses",
+    "ddgi": "probes: little noise, blurred",
+    "gather": "probes, one surface later",
+    "resampled": "gather that reuses points",
+    "hybrid": "rasterises, then effects",
+    "march": "steps through smoke",
+}
 SETTINGS = {c.name: c for c in controls_of(Settings, leave_out=("crop", "denoise", "adaptive"))}
+SETTINGS["method"] = replace(
+    SETTINGS["method"], told=tuple(_METHODS[name] for name in SETTINGS["method"].choices)
+)
 PREFERENCES = controls_of(Preferences, leave_out=("tab",))
 MOVING = ("mode", "temporal", "predictor")  # with the camera
 FREE_SAMPLES = ("samples_per_frame", "target_error")  # with the samples

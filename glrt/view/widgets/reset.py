@@ -35,9 +35,11 @@ def by_gestures(
 def gesture_texts(control: Control) -> list[str]:
     """Return lines of the tooltip about these gestures; none for a control that has none."""
     dragged = ["A drag on the label changes it"] if can_scrub(control) else []
+    if control.slider is not None:
+        dragged.append("Ctrl and a click: type a value")
     if not can_reset(control):
         return dragged
     parts = control.default if isinstance(control.default, tuple) else (control.default,)
     told = ", ".join(f"{part:.3g}" if isinstance(part, float) else str(part) for part in parts)
     sets = "goes back to the scene's value" if control.is_of_scene else "sets the default"
-    return [*dragged, f"A double click {sets}: {told}"]
+    return [*dragged, f"A double click on the label {sets}: {told}"]
