@@ -91,7 +91,6 @@ class Temporal:
         self._is_prepared = False  # whether all passes are compiled
         self._is_kept = False  # whether there is a history to begin from
         self._is_brought = False  # whether the view has one
-        self._is_late = False  # whether the view has yet to begin
         self._resolved_at: tuple[int, Weights | None] | None = None  # samples of the view
 
     @property
@@ -103,8 +102,6 @@ class Temporal:
         """Make what is shown the history; call it before an edit restarts the film."""
         if self.coarse(renderer):
             self._is_kept = True
-        if self._is_late and renderer.samples:
-            self._arrive(renderer)
         if self._resolver and renderer.samples and not self.surfaces.scene:
             self._find(renderer)  # the first view of all
         if self._resolver and renderer.samples:
@@ -114,11 +111,7 @@ class Temporal:
 
     def prepare(self, renderer: Renderer, weights: Weights | None = None) -> None:
         """Compile and allocate what the first edit would wait for; nothing of it is shown."""
-        if not self._resolver or not self.lacks(renderer):
-            return
-        if self._is_late:
-            self._arrive(renderer)
-        if self._is_prepared:
+        if not self._resolver or not renderer.samples or self._is_prepared:
             return
         self._is_prepared = True
         self.leave(renderer, weights)
@@ -130,27 +123,10 @@ class Temporal:
                 self.upsampled.trace(renderer, self.surfaces)
         self.forget()
 
-    def lacks(self, renderer: Renderer) -> bool:
-        """Whether there is something to prepare for the next edit."""
-        is_ready = self._is_prepared and not self._is_late
-        return self._resolver is not None and renderer.samples > 0 and not is_ready
-
-    def arrive(self, renderer: Renderer, later: bool = False) -> None:
-        """Begin the view that a renderer shows now; its film has no sample yet.
-
-        With `later`, a view without history begins with the next `prepare`, or before it is left.
-        """
+    def arrive(self, renderer: Renderer) -> None:
+        """Begin the view that a renderer shows now; its film has no sample yet."""
         if not self._resolver:
             return
-        self._is_late = later and not self._is_kept
-        if self._is_late:
-            self._is_brought, self._resolved_at = False, None
-        else:
-            self._arrive(renderer)
-
-    def _arrive(self, renderer: Renderer) -> None:
-        self._is_late = False
-        assert self._resolver
         self._surfaces.reverse()
         self._find(renderer)
         self._resolved_at = None
@@ -192,8 +168,6 @@ class Temporal:
         """
         resolver = self._resolver
         assert isinstance(resolver, Upsample)
-        if self._is_late:
-            self._arrive(renderer)
         if self.surfaces.scene is not renderer.scene:
             self._find(renderer)  # the first view of all
         with self._gl:

@@ -76,10 +76,6 @@ class MovingPicture:
             return self._left_out(error)
         return ""
 
-    def lacks(self, renderer: Renderer) -> bool:
-        """Whether history has something to prepare for the next edit."""
-        return self._temporal.lacks(renderer)
-
     def prepare(self, renderer: Renderer, weights: Weights) -> str:
         """Prepare history while nothing moves, so that no edit waits; returns a refusal, or ""."""
         try:
@@ -95,7 +91,7 @@ class MovingPicture:
         if cost not in (Cost.RESTART, Cost.RECOMPILE):
             return ""
         try:
-            self._temporal.arrive(renderer, later=cost is Cost.RECOMPILE)
+            self._temporal.arrive(renderer)
         except RenderError as error:
             return self._left_out(error)
         return ""

@@ -114,9 +114,6 @@ class Session(ShownPicture):
             if count:
                 target, seconds = min(target, self.samples + count), max(seconds, LONGEST)
             target = min(target, self.stop or target)
-            if not self.is_preview and self.moving.lacks(self.renderer):
-                self.problem = self.moving.prepare(self.renderer, self.weights) or self.problem
-                return
             is_short = self.renderer.lacks(target)
             if is_short and not (self.rest and self.rest.follow(self.renderer, self.restarts)):
                 self._render(self.renderer, target, seconds, self._clock() - start)
@@ -157,6 +154,8 @@ class Session(ShownPicture):
         self.rendering += self._clock() - start
         if self.is_shown:
             self._preview.deliver()
+        if not self.is_preview:
+            self.problem = self.moving.prepare(renderer, self.weights) or self.problem
 
     def _apply_pending(self, seconds: float) -> bool:
         """Apply edits, after announcing a compilation; returns whether there is a renderer."""
@@ -191,7 +190,7 @@ class Session(ShownPicture):
                     self._refuse(error)
         elif self.samples and not (self.paused or self.waits) and self._hysteresis is not None:
             self._go_on()
-        return self.renderer is not None and cost is not Cost.RECOMPILE  # that filled the frame
+        return self.renderer is not None
 
     def _waits_for_kernel(self, cost: Cost | None) -> bool:
         """Whether the edit waits for a kernel that another process compiles."""
