@@ -94,7 +94,7 @@ def test_a_pipe_in_the_folder_is_not_read(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("edits", "later", "told"),
     [
-        (None, 60, "Edits of 12:05 were not saved."),
+        (None, 60, "Edits, made until 12:05, were not saved."),
         (1, 60, "1 edit, made until 12:05, was not saved."),
         (5, 60, "5 edits, made until 12:05, were not saved."),
         (5, 86_400, "5 edits, made until 4 March 2026, 12:05, were not saved."),
