@@ -1,5 +1,7 @@
 """Export: what was typed becomes a command, or is refused with its name."""
 
+import sys
+import time
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -12,10 +14,15 @@ from glrt.image.sources import STRICT, load, load_recipe
 from glrt.settings import Settings, settings_for
 from glrt.view.boxes.export_box import keep_shape
 from glrt.view.export.clipboard import command_for
+from glrt.view.export.jobs import Job
 from glrt.view.export.sources import write_source
 from glrt.view.export.wishes import Wish, check_place, order_of
 
 WISH = Wish(picture="a.png", film="a.webp")
+
+
+def no_words(_: Path) -> list[str]:
+    return []
 
 
 def options(**changes: Any) -> str:
@@ -98,6 +105,21 @@ def test_files_from_elsewhere_are_copied_next_to_the_view(tmp_path: Path) -> Non
         named, *rest = write_source(folder_of_view, scene, settings_for(scene.render), base, STRICT)
         assert rest == []
         assert load_recipe(named)[0] == scene
+
+
+def test_a_caution_of_the_command_is_reported_with_the_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Such as one about a film whose camera goes through a wall."""
+    says = "import sys; print('glrt: caution: frames 1-3: all is black.', file=sys.stderr)"
+    monkeypatch.setattr("glrt.view.export.jobs._GLRT", (sys.executable, "-c", says))
+    job = Job(
+        order_of(replace(WISH, kind="film", film=str(tmp_path / "a.webp")), Settings()), no_words
+    )
+    deadline = time.monotonic() + 60
+    while not job.is_over and time.monotonic() < deadline:
+        time.sleep(0.01)
+    assert (job.problem, job.note) == ("", "Frames 1-3: all is black.")
 
 
 def test_the_program_of_the_desktop_is_chosen_or_named() -> None:

@@ -6,6 +6,7 @@ from imgui_bundle import imgui
 from glrt.core.errors import UsageError
 from glrt.scene.scene import with_lights
 from glrt.settings import Cost
+from glrt.view.panels.plots import figures
 from glrt.view.state.session import Session
 from tests.window.check_views import views
 from tests.window.gestures import move
@@ -30,6 +31,7 @@ def probes_light_the_picture_of_the_method_ddgi(hand: Hand) -> None:
     assert session.layering == "none"
     assert not session.problem
     assert hand.pixels()[..., :3].mean() > 20
+    assert any("of noise alone" in line for line in figures(hand.window.app))
     move(hand, "probes", 2)
     until_lit(hand)
     assert session.settings.probes == 2

@@ -23,6 +23,7 @@ def an_image_of_the_sky_is_turned_and_tinted(hand: Hand) -> None:
     ctx.item_open("Background")
     hand.ctx.yield_(2)
     assert not ctx.item_exists("gradient"), "it would take the place of the image"
+    assert ctx.item_exists("another photo...")
     move(hand, "rotation##background", 90.0)
     hand.settle()
     assert session.scene.background.rotation == 90.0
@@ -44,6 +45,7 @@ def a_clear_sky_comes_with_its_sun_and_goes_without_a_change_of_it(hand: Hand) -
     ctx.item_open("Background")
     ctx.item_open("Sun")
     hand.ctx.yield_(2)
+    assert ctx.item_exists("photo...")
     move(hand, "clear sky", None)
     hand.settle()
     assert session.scene.background.sky == ClearSky()
