@@ -123,6 +123,14 @@ def _contents(plan: Plan) -> tuple[str, str]:
 
 def _plot(app: App) -> None:
     """Plot the error over seconds, both logarithmic: the looks, and the way to the target."""
+    room, apart = hello_imgui.em_size(1.4), hello_imgui.em_size(0.4)
+    implot.push_style_var(implot.StyleVar_.plot_padding.value, ImVec2(room, apart))
+    implot.push_style_var(implot.StyleVar_.label_padding.value, ImVec2(apart, apart))
+    _draw_plot(app)
+    implot.pop_style_var(2)
+
+
+def _draw_plot(app: App) -> None:
     looks = app.progress.drawn
     size = ImVec2(-1, max(imgui.get_content_region_avail().y, hello_imgui.em_size(6)))
     if not implot.begin_plot("##error", size, implot.Flags_.no_menus.value):
