@@ -12,6 +12,7 @@ _HIDE = (  # lists, and titles of boxes: they hide what lies below
     imgui.Col_.title_bg_active,
     imgui.Col_.title_bg_collapsed,
 )
+_SPACING = "item_spacing", "item_inner_spacing", "frame_padding"  # alike in all themes
 TOOLTIP_AFTER = 0.5  # seconds that the mouse rests on a row
 
 
@@ -32,7 +33,11 @@ class WindowStyle:
         self._sizes = self._sizes or _sizes_of(style)
         for name, size in self._sizes.items():
             setattr(style, name, size)
+        hello_imgui.apply_theme(THEMES["dark"])
+        spacing = {name: _copied(getattr(style, name)) for name in _SPACING}
         hello_imgui.apply_theme(THEMES[theme])
+        for name, space in spacing.items():
+            setattr(style, name, space)
         for part in _HIDE:
             style.set_color_(part, opaque(style.color_(part)))
         style.hover_delay_short = TOOLTIP_AFTER
@@ -46,9 +51,13 @@ class WindowStyle:
 def _sizes_of(style: imgui.Style) -> dict[str, float | ImVec2]:
     """Return a copy of all lengths of the style, and of its other numbers, by name."""
     values = {name: getattr(style, name) for name in dir(style) if not name.startswith("_")}
-    lengths = {name: ImVec2(v.x, v.y) for name, v in values.items() if isinstance(v, ImVec2)}
+    lengths = {name: _copied(v) for name, v in values.items() if isinstance(v, ImVec2)}
     numbers = {name: value for name, value in values.items() if isinstance(value, float)}
     return {**lengths, **numbers}
+
+
+def _copied(length: ImVec2) -> ImVec2:
+    return ImVec2(length.x, length.y)
 
 
 def opaque(color: ImVec4) -> ImVec4:

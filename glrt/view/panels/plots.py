@@ -123,8 +123,9 @@ def _contents(plan: Plan) -> tuple[str, str]:
 
 def _plot(app: App) -> None:
     """Plot the error over seconds, both logarithmic: the looks, and the way to the target."""
-    room, apart = hello_imgui.em_size(1.4), hello_imgui.em_size(0.4)
-    implot.push_style_var(implot.StyleVar_.plot_padding.value, ImVec2(room, apart))
+    apart = hello_imgui.em_size(0.4)
+    room = ImVec2(3.5 * apart, 1.5 * apart)  # for half a label at the ends of the axes
+    implot.push_style_var(implot.StyleVar_.plot_padding.value, room)
     implot.push_style_var(implot.StyleVar_.label_padding.value, ImVec2(apart, apart))
     _draw_plot(app)
     implot.pop_style_var(2)
