@@ -12,6 +12,7 @@ from tempfile import TemporaryFile
 
 from glrt.packing.scene_tree import SceneTree
 from glrt.plan.plan import Layering, prepare
+from glrt.rendering.passes import RADIANCE, SURFACES
 from glrt.rendering.pipelines import KernelOptions
 from glrt.rendering.plan_shaders import shaders_of
 from glrt.rendering.renderer import Renderer
@@ -35,7 +36,9 @@ def note_on(part: Part, tree: SceneTree | None) -> Note:
     scene, settings, layering, driver = part
     plan = prepare(scene, settings, layering, apart="moved")
     options = KernelOptions(driver.pipeline, "generic")
-    return Note(shaders_of(plan, tree, options, driver.uniform_bytes), driver, settings.aov)
+    # The window finds both texts assembled, in the frame that takes the kernels.
+    shaders = shaders_of(plan, tree, options, driver.uniform_bytes, (RADIANCE, SURFACES))
+    return Note(shaders, driver, settings.aov)
 
 
 def compile_for(part: Part, goes_on: Callable[[], object]) -> bool:

@@ -3,6 +3,7 @@
 from glrt.gpu.context import Context
 from glrt.gpu.struct_arrays import uniform_bytes
 from glrt.packing.scene_tree import tree_of
+from glrt.rendering.passes import RADIANCE, SURFACES
 from glrt.rendering.pipelines import KernelOptions
 from glrt.rendering.plan_shaders import shaders_of
 from glrt.rendering.renderer import Renderer
@@ -15,7 +16,9 @@ def test_the_shaders_of_a_plan_are_those_that_its_renderer_compiles(context: Con
     settings = settings_for(scene.render, width=16, height=16)
     renderer = Renderer(scene, settings, context, layering="groups")
     plan, options = renderer.plan, KernelOptions(renderer.pipeline, "generic")
-    ahead = shaders_of(plan, tree_of(plan.facts), options, uniform_bytes(context.gl))
-    wanted = [shader.live.text for shader in renderer.shaders]
+    room, passes = uniform_bytes(context.gl), (RADIANCE, SURFACES)
+    ahead = shaders_of(plan, tree_of(plan.facts), options, room, passes)
+    shaders = [*renderer.shaders, *renderer.device_scene.shaders_of(SURFACES)]
+    wanted = [shader.live.text for shader in shaders]
     renderer.release()
     assert [shader.live.text for shader in ahead] == wanted
