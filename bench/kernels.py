@@ -39,6 +39,7 @@ class Variant:
 VARIANTS = (
     Variant("one sample a dispatch", "generic", one_sample_a_dispatch=True),
     Variant("uniform blocks", "generic"),
+    Variant("constants without places", "placed"),
     Variant("constants", "baked"),
 )
 

@@ -39,7 +39,6 @@ from glrt.rendering.pipelines import (
     Fast,
     KernelOptions,
     Tier,
-    common_tier,
     places,
     scene_text,
     sources,
@@ -161,10 +160,6 @@ class DeviceScene:
     def has_kernel_of(self, other: "DeviceScene") -> bool:
         """Whether both scenes can use the same kernel: equal constants and equal texts."""
         return (self._constants, self._texts) == (other._constants, other._texts)
-
-    def fast_tier_of(self, other: "DeviceScene") -> Fast | None:
-        """The fastest tier that writes the same into both kernels, if there is one."""
-        return common_tier(self._arrays, other._arrays)
 
     def dispatch(
         self,

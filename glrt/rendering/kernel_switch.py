@@ -1,7 +1,7 @@
 """Kernels of one scene: one that survives edits, and faster ones between edits."""
 
 import time
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 
 from glrt.core.errors import RenderError
@@ -39,14 +39,16 @@ class KernelSwitch:
         if before is not self._slow:
             self._context.programs.give_back(before)
 
-    def take_up(
-        self, tiers: Iterable[Fast], shaders: Callable[[Fast], list[Source] | None]
-    ) -> None:
-        """Use the first kernel of these tiers that is compiled already; `shaders` are its own."""
-        for tier in tiers:
-            text = shaders(tier)
+    def take_up(self, tier: Fast, shaders: Callable[[Fast], list[Source] | None]) -> None:
+        """Use the fastest kernel that is compiled already, up to a tier; `shaders` are its own.
+
+        After an edit it is there if the kernel has nothing of the edit as a constant.
+        """
+        tiers: tuple[Fast, ...] = ("placed",) if tier == "placed" else ("baked", "placed")
+        for fast in tiers:
+            text = shaders(fast)
             if text and self._context.programs.has(text):
-                self.use_fast(text, tier)
+                self.use_fast(text, fast)
                 return
 
     def release(self) -> None:

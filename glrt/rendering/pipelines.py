@@ -4,10 +4,8 @@ from collections.abc import Mapping, Sequence
 from typing import Literal, NamedTuple, get_args
 
 import moderngl
-import numpy as np
 
 from glrt.core.errors import ContextError
-from glrt.core.same_rows import same_rows
 from glrt.gpu import struct_arrays
 from glrt.gpu.context import Context, Pipeline
 from glrt.gpu.glsl import Source
@@ -130,19 +128,6 @@ def _layout(tier: Tier) -> Layout:
 def places(gl: moderngl.Context, arrays: Arrays) -> dict[str, Resource]:
     """Upload the places of shapes as the tier "placed" reads them, if they may be written."""
     return {READ: gl.buffer(read_content(arrays, PLACES))} if _can_bake(arrays) else {}
-
-
-def common_tier(arrays: Arrays, others: Arrays) -> Fast | None:
-    """The fastest tier that writes the same into the kernels of both scenes, to the last bit."""
-    if all(same_rows(arrays[name], others[name]) for name in SHAPES):
-        return "baked"
-    pairs = (
-        (arrays[struct][field], others[struct][field])
-        for struct in NUMBERED
-        for field in arrays[struct].dtype.names or ()
-        if field != PLACES.get(struct)
-    )
-    return "placed" if all(same_rows(*map(np.copy, pair)) for pair in pairs) else None
 
 
 def sources(

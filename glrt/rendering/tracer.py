@@ -98,7 +98,7 @@ class Tracer:
         after = (kind or type(self))(self._context, plan, self._options, self, hysteresis)
         is_same = after.device_scene.has_kernel_of(self.device_scene)
         if is_same and self.switch.fast:
-            after.switch.take_up(after._fast_tiers(self), after.device_scene.faster)
+            after.switch.take_up(self.switch.fast, after.device_scene.faster)
         if self.film is not after.film:
             self.film.release()
         self.aovs.release(after.aovs)
@@ -198,11 +198,6 @@ class Tracer:
         if shaders:
             self.switch.use_fast(shaders, tier)
         return shaders is not None
-
-    def _fast_tiers(self, before: "Tracer") -> list[Fast]:
-        """The tiers, fastest first, that may go on after an edit: none is faster than before."""
-        common, was = self.device_scene.fast_tier_of(before.device_scene), before.switch.fast
-        return ["baked", "placed"] if common == was == "baked" else ["placed"] if common else []
 
     def step(self, samples: int) -> None:
         """Add `samples` to every pixel at once, or in portions if they prove too many."""

@@ -55,10 +55,9 @@ def test_rest_edit_and_rest_again_give_the_bits_of_a_render_without_a_window(
     assert rested(session, clock)
     frames(session, 33)
     assert same_as_headless(session, context, layering)
-    for edit, tier in ((walked, "placed"), (aside, "generic")):
+    for edit in (walked, aside):
         session.edit(edit(session.scene), "camera")
         frames(session, 1)
-        assert session.renderer.running_tier == tier
         assert session.samples == 1, "in the frame of the edit"
         frames(session, 3)
         assert same_as_headless(session, context, layering)
