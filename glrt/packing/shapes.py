@@ -149,11 +149,14 @@ UNSET = np.iinfo(np.int32).min  # in a field of a row that its packer must fill
 
 
 def check_packers(packers: Collection[type], kinds: Collection[type]) -> None:
-    """Raise TypeError unless each model has a packer, in the order of the models."""
+    """Raise TypeError unless each model has a packer, in their order, and a field of its place."""
     if without := [kind.__name__ for kind in kinds if kind not in packers]:
         raise TypeError(f"shapes without a packer: {', '.join(without)}; add them to PACKERS")
     if list(packers) != list(kinds):
         raise TypeError("PACKERS has another order than Shape in glrt/scene/shapes/kinds.py")
+    names = [kind.__name__ for kind in kinds if kind is not Mesh]  # triangles lie in a texture
+    if without := [name for name in names if name not in PLACES]:
+        raise TypeError(f"shapes without a place: {', '.join(without)}; add them to PLACES")
 
 
 check_packers(PACKERS, KINDS.values())

@@ -6,7 +6,7 @@ from glrt.accel.shape_tree import Family
 from glrt.core.resources import folder
 from glrt.packing.kernel_structs import CONSTANTS
 from glrt.packing.scene_tree import FAMILIES, MOST_CODES, check_kinds
-from glrt.packing.shapes import PACKERS, check_packers
+from glrt.packing.shapes import PACKERS, PLACES, check_packers
 from glrt.scene.shapes.kinds import KINDS
 from tests.accel.test_shapes_by_tree import CROWD
 from tests.support.every_feature import still_life
@@ -59,3 +59,9 @@ def test_a_kind_needs_a_packer_in_the_order_of_the_kinds() -> None:
     with pytest.raises(TypeError, match="another order"):
         check_packers(kinds[::-1], kinds)
     check_packers(PACKERS, kinds)
+
+
+def test_a_kind_needs_a_field_of_its_place(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delitem(PLACES, "Sphere")
+    with pytest.raises(TypeError, match="without a place: Sphere; add them to PLACES"):
+        check_packers(PACKERS, list(KINDS.values()))

@@ -11,8 +11,8 @@ from glrt.rendering.pipelines import MOST_BAKED, Fast
 from glrt.rendering.renderer import Renderer
 from glrt.view.state.compile_ahead import CompileAhead
 
-# Seconds without an edit: about the processor time of compiling ahead. "placed" is 1.3 to
-# 2.4 times as fast as "generic" and stays while things move; "baked" is 1.1 to 1.2 times as fast.
+# Seconds without an edit: about the processor time of compiling ahead. "placed" is 1.1 to 2.4 times
+# as fast as "generic" and stays while things move; "baked" is up to 1.2 times as fast as that.
 PAUSES: dict[Fast, float] = {"placed": 1.0, "baked": 5.0}
 MOST = 0.25  # seconds: after a longer freeze of the window, kernels are no longer taken
 
