@@ -14,8 +14,7 @@ from glrt.core.errors import ContextError, UsageError
 from glrt.core.install import install
 from glrt.denoise.filters import with_filter
 from glrt.image.sources import STRICT, load_recipe
-from glrt.process.early import leave_at_once
-from glrt.process.signals import handled
+from glrt.process.command import loading
 from glrt.scene.scene import Scene, with_lights
 from glrt.settings import RenderSettings, Settings, settings_for
 from glrt.view.opening import Later, is_large
@@ -66,7 +65,7 @@ def run(arguments: argparse.Namespace) -> int:
     if not later:
         scene, settings = changed(scene, recipe or scene.render)
     try:
-        with handled(leave_at_once):
+        with loading():
             from glrt.view.window import Window
     except ModuleNotFoundError as error:
         if error.name not in EXTRA:

@@ -66,9 +66,11 @@ def error_of_mean(
     """
     count, a = observations[..., None], share[..., None]
     with np.errstate(divide="ignore", invalid="ignore"):
-        whole = variance / (count - 1)
-        apart = (part - mean) / (1 - a)
-        error = np.sqrt(np.maximum(1 - 2 * a, 0) * whole + np.square(a * apart))
+        squares = variance / (count - 1)
+        if share.any():
+            apart = (part - mean) / (1 - a)
+            squares = np.maximum(1 - 2 * a, 0) * squares + np.square(a * apart)
+        error = np.sqrt(squares)
     return np.where(count >= 2, error, np.float32(np.nan)).astype(np.float32)
 
 

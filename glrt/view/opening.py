@@ -25,7 +25,7 @@ Found = tuple[Scene, RenderSettings]
 Finish = Callable[[Scene, RenderSettings], Found]
 Later = tuple[str, FileRules, Finish]
 
-LARGE = 2_000_000  # bytes of models: they take some 0.25 s to read
+LARGE = 100_000  # bytes of models: with the BVH they take some 0.1 s to read
 BEGINNING = "reading"
 
 

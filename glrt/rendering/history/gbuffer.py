@@ -82,6 +82,10 @@ class Surfaces:
             self.release()
             raise
 
+    def leave(self) -> None:
+        """Discard the view; the textures stay for the next one."""
+        self.scene = self.settings = self._size_of = None
+
     def images(self) -> Mapping[str, moderngl.Texture]:
         """The textures by the names of the kernel's image uniforms."""
         assert self._size_of
@@ -93,7 +97,7 @@ class Surfaces:
         self._free()
         self.motion.release()
         self.deformed.release()
-        self.scene = self.settings = self._size_of = None
+        self.leave()
 
     def _free(self) -> None:
         for texture in self._textures.values():

@@ -110,28 +110,44 @@ class Temporal:
             self._is_kept = True
 
     def prepare(self, renderer: Renderer, weights: Weights | None = None) -> None:
-        """Compile and allocate what the first edit would wait for; nothing of it is shown."""
-        if not self._resolver or not renderer.samples or self._is_prepared:
+        """Find, compile and allocate what the next edit would wait for; nothing of it is shown.
+
+        A view takes two calls, so that no frame does all of it: the first finds its surfaces.
+        """
+        if not self._resolver or not renderer.samples:
             return
-        self._is_prepared = True
+        if not self.surfaces.scene:
+            self._find(renderer)
+        elif not self._is_prepared:
+            self._is_prepared = True
+            self._rehearse(self._resolver, renderer, weights)
+
+    def _rehearse(self, resolver: Resolver, renderer: Renderer, weights: Weights | None) -> None:
         self.leave(renderer, weights)
         with self._gl:
             for before in (self.surfaces, None):
-                self._resolver.arrive(self.surfaces, before, True)
-                self._resolver.show(self.surfaces, self._fresh(renderer, weights, END))
+                resolver.arrive(self.surfaces, before, True)
+                resolver.show(self.surfaces, self._fresh(renderer, weights, END))
             if self.upsampled and self.can_upsample(renderer):
                 self.upsampled.trace(renderer, self.surfaces)
         self.forget()
 
     def arrive(self, renderer: Renderer) -> None:
-        """Begin the view that a renderer shows now; its film has no sample yet."""
+        """Begin the view that a renderer shows now; its film has no sample yet.
+
+        Without history to bring, its surfaces are found once they are needed.
+        """
         if not self._resolver:
             return
+        self._check(renderer)
         self._surfaces.reverse()
-        self._find(renderer)
         self._resolved_at = None
         now, before = self._surfaces
         is_usable = self._is_kept and before.scene and shares_objects(renderer.scene, before.scene)
+        if is_usable:
+            self._find(renderer)
+        else:
+            now.leave()
         is_same_light = bool(before.scene and is_lit_alike(renderer, before))
         self._is_brought = bool(is_usable)
         self._is_prepared |= self._is_brought
@@ -227,6 +243,10 @@ class Temporal:
             self._resolver.release()
 
     def _find(self, renderer: Renderer) -> None:
+        self._check(renderer)
+        self._pass.fill(renderer, self.surfaces)
+
+    def _check(self, renderer: Renderer) -> None:
         if isinstance(self._resolver, Ataa) and renderer.pipeline == "fragment":
             raise RenderError(
                 "temporal ataa lists the pixels that it traces: that takes compute shaders, and "
@@ -237,7 +257,6 @@ class Temporal:
                 "temporal upsample lists the pixels that it traces: that takes compute shaders, "
                 "and the pipeline is fragment. temporal reproject does without."
             )
-        self._pass.fill(renderer, self.surfaces)
 
     def _resolved(
         self, resolver: Resolver, renderer: Renderer, weights: Weights | None

@@ -17,9 +17,7 @@ from glrt.core.text import counted
 from glrt.denoise.filters import least_samples, with_filter
 from glrt.error.estimate import DARK
 from glrt.image.image import Image
-from glrt.plan.plan import Weights
 from glrt.rendering.first_half import Halver
-from glrt.rendering.renderer import Renderer
 from glrt.settings import Denoise, Settings, settings_for
 from glrt.view.state.denoise_process import DenoiseProcess
 from glrt.view.state.session import Session
@@ -46,6 +44,10 @@ class DenoisedPicture:
         """Whether a picture is being filtered."""
         return self._task is not None
 
+    def lacks(self, session: Session) -> bool:
+        """Whether a picture is being filtered, or `follow` is to begin with one."""
+        return self.is_under_way or self._of != _identity(session) or any(self._due(session))
+
     def stop(self, session: Session) -> int | None:
         """Return the samples at which a half must be kept next; None if none must be kept."""
         renderer = session.renderer
@@ -56,19 +58,20 @@ class DenoisedPicture:
             return samples  # wait for its guides
         return self._halver.next_stop(settings, samples, NO_END)
 
-    def follow(self, session: Session) -> None:
-        """Take a finished result, keep a half, or begin to filter; call it once a frame."""
-        of = session.restarts, session.weights if session.renderer else ()
-        if of != self._of:
+    def follow(self, session: Session) -> bool:
+        """Take a finished result, keep a half, or begin to filter; call it once a frame.
+
+        Returns whether it read the picture from the driver, which takes as long as a frame.
+        """
+        if self._of != (of := _identity(session)):
             self.rest()
             self._of = of
         if self._task and self._task.done():
             self.found, self._task = self._task.result(), None
-        renderer = session.renderer
-        if not renderer or session.is_passing or session.is_behind:
-            return
-        if not renderer.lacks(renderer.samples):  # guides that began late have fewer samples
-            self._take(renderer, session.weights, session.is_done)
+        is_kept, is_filtered = self._due(session)
+        if is_kept or is_filtered:
+            self._take(session, is_kept, is_filtered)
+        return is_kept or is_filtered
 
     def fits(self, session: Session) -> bool:
         """Whether there is a denoised picture to show; not for previews or live probes."""
@@ -126,17 +129,26 @@ class DenoisedPicture:
         wanted = max(self._next, least_samples(renderer.settings.block))
         return f"Denoised from {wanted} samples on"
 
-    def _take(self, renderer: Renderer, weights: Weights, is_end: bool) -> None:
+    def _due(self, session: Session) -> tuple[bool, bool]:
+        """Whether the samples so far are to be kept as a half, and whether to be filtered."""
+        renderer = session.renderer
+        if not renderer or session.is_passing or session.is_behind:
+            return False, False
         settings, samples = self._filtered(renderer.settings), renderer.samples
+        if renderer.lacks(samples):  # guides that began late have fewer samples
+            return False, False
         is_kept = self._halver.wants(settings, samples, NO_END)
-        is_due = samples >= self._next > 0 or (is_end and samples > self._tried)
-        is_due = is_due and self._task is None and self._halver.has_half(samples, settings.block)
-        if not is_kept and not is_due:
-            return
-        image = renderer.image_for_halves(weights)
+        is_enough = samples >= self._next > 0 or (session.is_done and samples > self._tried)
+        has_half = self._halver.has_half(samples, settings.block)
+        return is_kept, is_enough and self._task is None and has_half
+
+    def _take(self, session: Session, is_kept: bool, is_filtered: bool) -> None:
+        assert session.renderer
+        image = session.renderer.image_for_halves(session.weights)
         assert image.recipe
+        settings, samples = self._filtered(session.renderer.settings), image.samples
         image = replace(image, recipe=image.recipe.model_copy(update={"settings": settings}))
-        if is_due:
+        if is_filtered:
             self._tried, self._next = samples, 2 * samples
             self._task = self._threads.submit(self._halver.finished, image, self._process.run)
         if is_kept:
@@ -148,3 +160,8 @@ class DenoisedPicture:
         """Return the settings with the denoiser, and with samples enough for it."""
         most = max(settings.samples, least_samples(settings.block))
         return with_filter(settings_for(settings, denoise=self._by, samples=most))
+
+
+def _identity(session: Session) -> object:
+    """What the halves of a picture belong to: a restart and weights of layers."""
+    return session.restarts, session.weights if session.renderer else ()

@@ -78,16 +78,15 @@ class PictureView:
             self.view, needed = "picture", ()
         session.aovs, session.refused = needed, ()
         is_denoised = is_filtered(self.view)
+        is_read = is_denoised and self.denoised.follow(session)
         session.stop = self.denoised.stop(session) if is_denoised else None
         self.bounces = traced_bounces(session)
         renderer = session.renderer
         kept = self._compared(session)
         is_ahead = kept and renderer and kept.samples(renderer) < session.samples
-        session.waits = self.holds or bool(is_ahead)
+        session.waits = self.holds or bool(is_ahead) or is_read
         session.advance(seconds / 2 if kept else seconds, count)
-        if is_denoised:
-            self.denoised.follow(session)
-        else:
+        if not is_denoised:
             self.denoised.rest()
         if kept and session.renderer:
             is_alone = session.is_done or session.waits
@@ -99,7 +98,8 @@ class PictureView:
         """Whether nothing remains to be rendered."""
         kept, renderer = self._compared(session), session.renderer
         is_behind = kept and renderer and kept.samples(renderer) < session.samples
-        return session.is_done and not is_behind and not self.denoised.is_under_way
+        is_filtered_now = is_filtered(self.view) and self.denoised.lacks(session)
+        return session.is_done and not is_behind and not is_filtered_now
 
     def draw(self, session: Session) -> None:
         """Draw the newest samples; without any, the old picture stays on the screen."""
