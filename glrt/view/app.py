@@ -16,7 +16,6 @@ from glrt.scene.scene import Scene
 from glrt.scene.values import Vector
 from glrt.view.compared_picture import Pair
 from glrt.view.edits.scene_edits import found_again
-from glrt.view.edits.state_differences import change_text
 from glrt.view.edits.texture_images import is_texture
 from glrt.view.export.exports import Exports
 from glrt.view.file_watch import Watch
@@ -103,6 +102,7 @@ class App(Selection):
         self.files = Files(
             self.session, self.messages, source, recent, self.show_scene, self.add_model, rules
         )
+        self.files.is_compared = lambda: self.pair.picture is not None
         self.exports = Exports(self.files)
 
     def prefer(self, preferences: Preferences) -> None:
@@ -221,23 +221,11 @@ class App(Selection):
 
     def undo(self) -> None:
         """Undo the last gesture; the selection stays, or moves to an object that comes back."""
-        self._step(self.session.undo, self.undoes or "There is nothing more to undo")
+        self._step(self.session.undo, self.session.undoes or "There is nothing more to undo")
 
     def redo(self) -> None:
         """Redo the gesture that was undone last."""
-        self._step(self.session.redo, self.redoes or "There is nothing more to redo")
-
-    @property
-    def undoes(self) -> str:
-        """Edit that undo would take back, in a few words; "" if there is none."""
-        before = self.session.history.before
-        return f"Undo: {change_text(before, self.session.state)}" if before else ""
-
-    @property
-    def redoes(self) -> str:
-        """Edit that redo would make again, in a few words; "" if there is none."""
-        after = self.session.history.undone
-        return f"Redo: {change_text(self.session.state, after)}" if after else ""
+        self._step(self.session.redo, self.session.redoes or "There is nothing more to redo")
 
     def _step(self, step: Callable[[], None], told: str) -> None:
         before = self.session.scene.objects
@@ -288,9 +276,12 @@ class App(Selection):
 
     def keep(self) -> None:
         """Keep the picture as A, to compare it with later ones."""
+        was_rendered = self.pair.slot is not None
         self.pair.go_on(False)
         with self.messages.reporting():
             self.show.keep(self.session)
+            if was_rendered:
+                self.messages.report("A is this picture now, and is not rendered further")
 
     def look(self, now: float) -> None:
         """Estimate the errors of A and B where that is due."""

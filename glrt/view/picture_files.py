@@ -1,6 +1,7 @@
 """Save pictures and paths; a thread writes a picture while the window goes on."""
 
 import os
+from collections.abc import Callable
 from pathlib import Path
 from threading import Thread
 
@@ -52,6 +53,7 @@ class PictureFiles:
     picture_path: str
     picture_name: str  # name that numbers are appended to
     writer: PictureWriter | None = None  # of the picture that is being saved
+    is_compared: Callable[[], bool] = bool  # whether another picture, A, is shown with this one, B
 
     def save_picture(self, path: str = "") -> None:
         """Save the picture with its recipe to a path, by default that of the text box.
@@ -73,7 +75,8 @@ class PictureFiles:
         writer, self.writer = self.writer, None
         if writer.problem:
             return self.messages.complain(writer.problem)
-        self.messages.report(f"Saved {where(Path(writer.path))}")
+        alone = ": B alone, without A" if self.is_compared() else ""
+        self.messages.report(f"Saved {where(Path(writer.path))}{alone}")
         if writer.path != self.picture_path:
             self.picture_name = writer.path
         self.picture_path = unused(self.picture_name)

@@ -13,13 +13,14 @@ from glrt.scene.scene import Scene, with_lights
 from glrt.settings import settings_for
 from glrt.view.controls import replaced
 from glrt.view.edits.edited_state import State
-from glrt.view.state.reference_image import ReferenceImage
+from glrt.view.state.reference_image import Kept, ReferenceImage
 from glrt.view.state.session import ANNOUNCED, Session
 from glrt.view.viewport.difference import difference_of
 from glrt.view.viewport.picture_view import LONGER, PictureView
 from tests.support.mixed_scene import everything
 from tests.support.sessions import start
 
+AS_KEPT = 7  # samples
 SIZE: dict[str, int] = {"width": 16, "height": 12, "bounces": 3}
 Floats = NDArray[np.float32]
 
@@ -36,8 +37,9 @@ def next_one(context: Context) -> Iterator[Renderer]:
 
 @pytest.fixture
 def kept(next_one: Renderer) -> Iterator[ReferenceImage]:
-    """The picture as it was before any change."""
-    picture = ReferenceImage(State(next_one.scene, next_one.settings), 1.0, next_one.context)
+    """The picture as it was before any change, kept black and with samples of no other picture."""
+    black = Kept(np.zeros((12, 16, 3), np.float32), AS_KEPT, next_one.settings.seed)
+    picture = ReferenceImage(State(next_one.scene, next_one.settings), black, next_one.context)
     yield picture
     with next_one.context.gl:
         picture.release()
@@ -87,6 +89,31 @@ def test_another_material_differs_only_where_its_light_comes(
     assert (light(kept, next_one) == before).all(), "at the same seeds and samples"
     after = next_one.image().radiance
     assert 0.1 < (after == before).all(axis=2).mean() < 0.9
+
+
+def test_at_the_samples_that_it_was_kept_with_nothing_is_rendered_again(
+    next_one: Renderer,
+) -> None:
+    before = next_one.image().radiance
+    state, context = State(next_one.scene, next_one.settings), next_one.context
+    kept = ReferenceImage(state, Kept(before, 6, state.settings.seed), context)
+    next_one.update(repainted(next_one.scene))
+    next_one.render(6)
+    catch_up(kept, next_one)
+    assert kept._renderer is None
+    assert (light(kept, next_one) == before).all()
+    assert kept.mean == pytest.approx(before.mean(), rel=1e-5)
+    next_one.update(seed=state.settings.seed + 1)
+    next_one.render(6)
+    assert kept.samples(next_one) == 0, "other noise"
+    next_one.update(seed=state.settings.seed)
+    next_one.render(5)
+    assert kept.light(next_one) is None
+    with context.gl:
+        assert kept.as_kept
+        kept.take(state)
+        assert kept.as_kept is None
+        kept.release()
 
 
 def test_it_waits_for_equal_samples(kept: ReferenceImage, next_one: Renderer) -> None:
@@ -147,8 +174,8 @@ def test_the_difference_is_reported_in_numbers(context: Context) -> None:
     with context.gl:
         one, two = (context.gl.texture((6, 4), 4, a.tobytes(), dtype="f4") for a in (here, there))
         black = context.gl.texture((6, 4), 4, bytes(6 * 4 * 16), dtype="f4")
-        found, same = difference_of(one, two, 8), difference_of(one, one, 8)
-        dark = difference_of(one, black, 8)
+        found, same = difference_of(one, two, 8, 8), difference_of(one, one, 8, 8)
+        dark, other = difference_of(one, black, 8, 8), difference_of(one, two, 8, 9)
     assert found.brighter == pytest.approx(-1 / 3)
     scale = 4 + 0.01 * 1.5**2
     assert found.pixels == pytest.approx((0.5 / scale) ** 0.5)
@@ -156,13 +183,14 @@ def test_the_difference_is_reported_in_numbers(context: Context) -> None:
     assert (same.brighter, same.pixels) == (0, 0)
     assert same.told == "A and B are the same; 8 samples"
     assert dark.told == "A is black"
+    assert other.told.endswith("with the noise of both: A has 9 samples, B 8")
 
 
 class Behind:
     """Stands for a kept picture that has some samples; remembers how long it was to work."""
 
-    def __init__(self, samples: int) -> None:
-        self._samples = samples
+    def __init__(self, samples: int, as_kept: int = 0) -> None:
+        self._samples, self.samples_as_kept = samples, as_kept
         self.turns: list[float] = []
 
     def fits(self, _: Renderer) -> bool:
@@ -188,3 +216,22 @@ def test_a_picture_that_is_waited_for_gets_long_turns(
     show.kept, show.view = stand_in, "difference"
     show.advance(session, 0.01, 1)
     assert kept.turns == [share]
+
+
+def test_a_kept_picture_waits_until_the_other_one_is_done(session: Session) -> None:
+    """At the samples that it was kept with, the other one is drawn on its way to more."""
+    nothing: Any = None
+    start(session)
+    first, last = session.samples + 4, session.samples + 9
+    session.edit(samples=last)
+    show, kept = PictureView(nothing, nothing, nothing, nothing, nothing), Behind(0, first)
+    stand_in: Any = kept
+    show.kept, show.view = stand_in, "difference"
+    seen = []
+    while not session.is_done:
+        show.advance(session, 10.0, 0)
+        seen.append(session.samples)
+    assert seen[-2:] == [first, last]
+    assert kept.turns == []
+    show.advance(session, 0.01, 0)
+    assert kept.turns == [LONGER]

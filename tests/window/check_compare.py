@@ -72,13 +72,13 @@ def the_difference_is_white_where_nothing_changed(hand: Hand) -> None:
     ctx.item_click("show the difference")
     hand.until(lambda: app.show.drawn == "difference")
     assert np.ptp(hand.pixels()[..., :3].reshape(-1, 3), axis=0).max() == 0, "nothing changed"
-    assert app.show.difference
-    assert app.show.difference[:2] == (0.0, 0.0)
+    assert app.show.difference.last
+    assert app.show.difference.last[:2] == (0.0, 0.0)
     restarts = hand.session.restarts
     move(hand, "intensity##lamp", 3.0)
     hand.settle()
     assert hand.session.restarts == restarts
-    assert abs(app.show.difference.brighter - 2) < 1e-5
+    assert abs(app.show.difference.last.brighter - 2) < 1e-5
     assert "B is 200 % brighter, in the mean, than A" in app.show.notice(hand.session)
     red = hand.pixels().astype(int)
     assert (red[..., 0] > red[..., 2]).mean() > 0.95, "all is lighter than it was"

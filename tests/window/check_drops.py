@@ -53,7 +53,7 @@ def an_image_of_the_sky_dropped_by_another_program_lights_the_scene(hand: Hand) 
     assert image.file == file.name
     assert not hand.session.problem
     assert (hand.pixels() > before).mean() > 0.5
-    assert hand.window.app.undoes == "Undo: background"
+    assert hand.window.app.session.undoes == "Undo: background"
     hand.there(hand.session.undo)
     assert hand.session.scene is scene
     file.unlink()

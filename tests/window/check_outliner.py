@@ -96,7 +96,7 @@ def a_locked_object_is_neither_moved_nor_edited_nor_deleted(hand: Hand) -> None:
     press(hand, imgui.Key.delete)
     assert session.scene.objects[number] is shape
     assert "is locked" in session.problem
-    assert app.undoes == f"Undo: lock of {shape.name}"
+    assert app.session.undoes == f"Undo: lock of {shape.name}"
     hand.ctx.item_click("//Controls/unlock")
     assert not session.state.locked
     press(hand, imgui.Key.z, CTRL)

@@ -18,7 +18,7 @@ def keep_and_go_on(hand: Hand) -> Pair:
     ctx.yield_(2)
     move(hand, "bounces", 1)
     hand.settle()
-    ctx.item_click("//Controls/A goes on")
+    ctx.item_click("//Controls/render A too")
     hand.until(lambda: bool(pair.slot and pair.slot.session.samples > 0))
     return pair
 

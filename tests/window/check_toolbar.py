@@ -99,7 +99,7 @@ def undo_redo_and_pause_stand_in_the_bar_and_say_why_they_do_nothing(hand: Hand)
         assert ctx.item_info("//Picture/###pause").rect_full.max.x == place.max.x, "nothing moves"
         ctx.item_click("//Picture/###pause")
         assert not session.paused
-    assert app.undoes
+    assert app.session.undoes
 
 
 @check

@@ -109,16 +109,19 @@ class Temporal:
                 self._resolved(self._resolver, renderer, weights)
             self._is_kept = True
 
-    def prepare(self, renderer: Renderer, weights: Weights | None = None) -> None:
+    def prepare(
+        self, renderer: Renderer, weights: Weights | None = None, at_once: bool = True
+    ) -> None:
         """Find, compile and allocate what the next edit would wait for; nothing of it is shown.
 
-        A view takes two calls, so that no frame does all of it: the first finds its surfaces.
+        If not `at_once`, a view takes two calls: the first finds its surfaces.
         """
         if not self._resolver or not renderer.samples:
             return
-        if not self.surfaces.scene:
+        is_found = self.surfaces.scene is not None
+        if not is_found:
             self._find(renderer)
-        elif not self._is_prepared:
+        if not self._is_prepared and (is_found or at_once):
             self._is_prepared = True
             self._rehearse(self._resolver, renderer, weights)
 

@@ -109,9 +109,9 @@ def _is_useful(app: App, action: Action) -> bool:
 def _told(app: App, action: Action) -> str:
     """Return what an action does at present, or why it does nothing."""
     if action == "undo":
-        return app.undoes or _NO_UNDO
+        return app.session.undoes or _NO_UNDO
     if action == "redo":
-        return app.redoes or _NO_REDO
+        return app.session.redoes or _NO_REDO
     return MEANING[action]
 
 

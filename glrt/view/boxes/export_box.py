@@ -94,12 +94,13 @@ def _progress(exports: Exports, job: Job) -> None:
     if imgui.button("cancel"):
         exports.cancel()
     imgui.end_disabled()
-    _close_button(exports)
+    _close_button(exports, "hide")
+    explain("The export goes on, and the line below the picture says how far it is")
 
 
-def _close_button(exports: Exports) -> None:
+def _close_button(exports: Exports, name: str = "close") -> None:
     imgui.same_line()
-    if imgui.button("close"):
+    if imgui.button(name):
         exports.is_open = False
 
 
@@ -187,8 +188,12 @@ def _end(wish: Wish) -> None:
     imgui.same_line()
     if wish.until == "samples":
         wish.samples = _text("samples", wish.samples, _NUMBER)
+        imgui.same_line()
+        imgui.text("of each pixel")
     else:
         wish.error = _text("error", wish.error, _NUMBER)
+        imgui.same_line()
+        imgui.text("of the picture")
         explain("Estimated relative error of the picture, such as 2 % or 0.02")
 
 

@@ -8,6 +8,7 @@ from glrt.scene.scene import Scene
 from glrt.settings import Settings, settings_for
 from glrt.view.edits.edited_state import State
 from glrt.view.edits.locks import followed
+from glrt.view.edits.state_differences import change_text
 
 Value = TypeVar("Value")
 
@@ -110,6 +111,18 @@ class Editing:
     @by_length.setter
     def by_length(self, wanted: bool) -> None:
         self._take(replace(self.state, by_length=wanted))
+
+    @property
+    def undoes(self) -> str:
+        """Edit that undo would take back, in a few words; "" if there is none."""
+        before = self.history.before
+        return f"Undo: {change_text(before, self.state)}" if before else ""
+
+    @property
+    def redoes(self) -> str:
+        """Edit that redo would make again, in a few words; "" if there is none."""
+        after = self.history.undone
+        return f"Redo: {change_text(self.state, after)}" if after else ""
 
     def edit(self, scene: Scene | None = None, gesture: str = "", **changes: Any) -> None:
         """Change scene or settings from the next frame on; a refusal sets `problem`, not raises."""

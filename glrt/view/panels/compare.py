@@ -16,17 +16,18 @@ MOST = Control(
 )
 
 _GOES_ON = (
-    "Let A gather samples too, by the scene and settings that it was kept with, in turns with B; "
+    "A gathers samples too, by the scene and settings that it was kept with, in turns with B; "
     "both restart, and the plot shows both errors over their own time"
 )
-GOES_ON = switch("A_goes_on", _GOES_ON, Cost.RECOMPILE)
+GOES_ON = switch("render_A_too", _GOES_ON, Cost.RECOMPILE)
 _PAIRING = "what A and B have in common: seconds of rendering, or samples of each pixel"
 PAIRING = choice("pairing", _PAIRING, Cost.FREE, get_args(Pairing))
 _WIPE = "where the line parts A, to its left, from B: as a share of the picture's width"
 WIPE = Control("wipe", "number", _WIPE, Cost.FREE, low=0.0, high=1.0, slider=(0.0, 1.0))
 _DIFFERENCE = (
-    "the change by the edits since then, pixel by pixel; A is rendered again at the seeds and "
-    "samples of B, so that the noise of both is the same and drops out: that takes as long as B did"
+    "the change by the edits since then, pixel by pixel; at the samples that A was kept with, the "
+    "noise of both is the same and drops out; for more samples A is rendered again after B, which "
+    "takes as long as B did"
 )
 DIFFERENCE = switch("show the difference", _DIFFERENCE, Cost.FREE)
 BESIDE = switch("side_by_side", "A to the left of B, instead of a line between them", Cost.FREE)

@@ -111,9 +111,10 @@ def _path(path: Path) -> None:
     imgui.text_wrapped(f"radiance {triple(path.radiance)}, ended by: {path.end}")
     if told := explanation(path):
         imgui.text_wrapped(told)
-    _table("vertices", vertex_rows(path), (0, 1, 2, 5, 6))
+    _entries(vertex_rows(path), (0, 1, 2), (5, 6))
     if path.contributions:
-        _table("lights", light_rows(path), (0, 1, 2, 7, 6, 4, 3))
+        imgui.text("light that it found")
+        _entries(light_rows(path), (0, 1, 2), (7, 6, 4, 3))
     for kind, meaning in _LEGEND.items():
         imgui.text_colored(COLORS[kind], "---")
         imgui.same_line(hello_imgui.em_size(2.5))
@@ -127,16 +128,15 @@ def _dimmed(text: str) -> None:
     imgui.pop_text_wrap_pos()
 
 
-def _table(name: str, rows: list[tuple[str, ...]], columns: tuple[int, ...]) -> None:
-    """Draw some columns of a table, which scrolls where the panel is narrow."""
-    flags = imgui.TableFlags_.borders_inner_h | imgui.TableFlags_.sizing_fixed_fit
-    flags |= imgui.TableFlags_.scroll_x
-    height = (len(rows) + 0.6) * imgui.get_text_line_height_with_spacing() + 14
-    if not imgui.begin_table(name, len(columns), int(flags), (0.0, height)):
-        return
-    for row in rows:
-        imgui.table_next_row()
-        for column in columns:
-            imgui.table_next_column()
-            imgui.text_unformatted(row[column])
-    imgui.end_table()
+def _entries(rows: list[tuple[str, ...]], titles: tuple[int, ...], rest: tuple[int, ...]) -> None:
+    """Draw rows of a table below its headings as lines of text, which fit a narrow panel.
+
+    Each begins with the columns `titles`; those of `rest` follow in grey, with their headings.
+    """
+    headings = rows[0]
+    for row in rows[1:]:
+        imgui.text_wrapped("  ".join(row[column] for column in titles))
+        imgui.indent()
+        if told := ", ".join(f"{headings[column]} {row[column]}" for column in rest if row[column]):
+            _dimmed(told)
+        imgui.unindent()

@@ -76,10 +76,10 @@ class MovingPicture:
             return self._left_out(error)
         return ""
 
-    def prepare(self, renderer: Renderer, weights: Weights) -> str:
+    def prepare(self, renderer: Renderer, weights: Weights, at_once: bool = True) -> str:
         """Prepare history while nothing moves, so that no edit waits; returns a refusal, or ""."""
         try:
-            self._temporal.prepare(renderer, weights)
+            self._temporal.prepare(renderer, weights, at_once)
         except RenderError as error:
             return self._left_out(error)
         return ""

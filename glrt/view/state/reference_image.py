@@ -1,27 +1,42 @@
-"""The kept picture, rendered again at the seeds of the current one to compare both.
+"""The kept picture, at the seeds and samples of the current one, to compare both.
 
 At equal seeds and samples, the noise of both is the same where nothing changed: there the
-difference is zero, and elsewhere it is that of the change.
+difference is zero, and elsewhere it is that of the change. The kept picture has the samples that
+it was kept with; for another number it is rendered again.
 """
 
-import moderngl
+from typing import NamedTuple
 
-from glrt.gpu.context import Context
+import moderngl
+import numpy as np
+
+from glrt.gpu.context import Context, checked
 from glrt.plan.plan import Plan, Weights, are_trivial
 from glrt.rendering.layer_weights import Mixer
+from glrt.rendering.pass_film import Array
 from glrt.rendering.renderer import Renderer
 from glrt.settings import Settings, settings_for
 from glrt.view.edits.edited_state import State
 from glrt.view.state.session import ANNOUNCED
 
 
-class ReferenceImage:
-    """The scene and settings of the kept picture, and a film of it if one is needed."""
+class Kept(NamedTuple):
+    """A picture as it was kept."""
 
-    def __init__(self, state: State, mean: float, context: Context) -> None:
-        """Render nothing yet; `mean`: mean radiance of the picture over pixels and channels."""
+    radiance: Array  # (H, W, 3) float32
+    samples: int  # of each pixel
+    seed: int
+
+
+class ReferenceImage:
+    """The scene and settings of the kept picture, with a film of its own where that is needed."""
+
+    def __init__(self, state: State, kept: Kept, context: Context) -> None:
+        """Render nothing yet."""
         self.state = state
-        self.mean = mean
+        self.mean = float(kept.radiance.mean(dtype=np.float64))  # over pixels and channels
+        self._kept: Kept | None = kept
+        self._texture: moderngl.Texture | None = None  # of its radiance
         self.busy = ""  # notice on what the next frame waits for
         self._context = context
         self._renderer: Renderer | None = None
@@ -34,6 +49,7 @@ class ReferenceImage:
         """Replace the kept picture by one that was rendered from `state`."""
         self.rest()
         self.state, self._asked, self._answer = state, None, None
+        self._kept = None
 
     def fits(self, other: Renderer) -> bool:
         """Whether both pictures have the same size."""
@@ -41,7 +57,7 @@ class ReferenceImage:
 
     def samples(self, other: Renderer) -> int:
         """Return the samples of each pixel at the seeds of the other picture."""
-        if self._shared(other):
+        if self._shared(other) or self._fits_as_kept(other):
             return other.samples
         return self._renderer.samples if self._renderer else 0
 
@@ -52,6 +68,8 @@ class ReferenceImage:
         """
         if self._shared(other):
             return self.rest()
+        if self._fits_as_kept(other):
+            return self._end()
         renderer = self._renderer or self._open(other)
         if not renderer:
             return None
@@ -69,13 +87,45 @@ class ReferenceImage:
         if weights:
             trivial = are_trivial(weights)
             return other.film.mean if trivial else self._mixer.draw(other.film, weights)
+        if self._fits_as_kept(other):
+            return self.as_kept
         renderer = self._renderer
         if not renderer or renderer.samples != other.samples:
             return None
         return renderer.film.mean
 
+    @property
+    def as_kept(self) -> moderngl.Texture | None:
+        """Radiance of the picture as it was kept; None if it is another one now, see `take`.
+
+        Raises RenderError if the driver has no room for it.
+        """
+        if self._kept and not self._texture:
+            height, width, _ = self._kept.radiance.shape
+            texels = np.dstack([self._kept.radiance, np.ones((height, width), np.float32)])
+            with checked(self._context.gl, f"a kept picture of {width} x {height} pixels"):
+                self._texture = self._context.gl.texture((width, height), 4, texels, dtype="f4")
+        return self._texture
+
+    @property
+    def samples_as_kept(self) -> int:
+        """Samples of each pixel of `as_kept`; 0 without one."""
+        return self._kept.samples if self._kept else 0
+
+    def _fits_as_kept(self, other: Renderer) -> bool:
+        """Whether the picture as it was kept has the seed and the samples of the other one."""
+        own = self._kept and (self._kept.samples, self._kept.seed)
+        return own == (other.samples, other.settings.seed)
+
     def rest(self) -> None:
-        """Release the second film."""
+        """Release all films; they are made again where they are needed."""
+        self._end()
+        if self._texture:
+            self._texture.release()
+        self._texture = None
+
+    def _end(self) -> None:
+        """Release the film of another number of samples."""
         if self._renderer:
             self._renderer.release()
         self._renderer, self.busy, self._announced = None, "", 0

@@ -150,13 +150,16 @@ class Session(ShownPicture):
     def _render(self, renderer: Renderer, target: int, seconds: float, edit: float) -> None:
         start = self._clock()
         if renderer.samples and not self.is_preview:  # the frame of the first sample did enough
-            self.problem = self.moving.prepare(renderer, self.weights) or self.problem
+            refusal = self.moving.prepare(renderer, self.weights, at_once=False)
+            self.problem = refusal or self.problem
             edit, start = edit + self._clock() - start, self._clock()
         work = self._upsampled if self._upsamples else self._preview
         work.work(renderer, target, seconds, edit)
         self.rendering += self._clock() - start
         if self.is_shown:
             self._preview.deliver()
+        if not (self.is_preview or renderer.lacks(target)):
+            self.problem = self.moving.prepare(renderer, self.weights) or self.problem
 
     def _apply_pending(self, seconds: float) -> bool:
         """Apply edits, after announcing a compilation; returns whether there is a renderer."""

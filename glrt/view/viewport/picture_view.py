@@ -12,9 +12,9 @@ from glrt.rendering.screen.probe_balls import ProbeBalls, farthest
 from glrt.rendering.screen.surface_view import NEEDED, SurfaceView
 from glrt.view.state.costs import traced_bounces
 from glrt.view.state.denoised_picture import DenoisedPicture
-from glrt.view.state.reference_image import ReferenceImage
+from glrt.view.state.reference_image import Kept, ReferenceImage
 from glrt.view.state.session import Session
-from glrt.view.viewport.difference import GROWTH, Difference, difference_of
+from glrt.view.viewport.difference import Differences
 from glrt.view.viewport.picture import Picture
 from glrt.view.viewport.views import (
     View,
@@ -56,10 +56,9 @@ class PictureView:
     mean: float | None = None  # radiance at the last look
     drawn: View = "picture"  # on the screen now
     is_surface: bool = False  # whether a preview shows the first surface instead of the light
-    difference: Difference | None = None  # from the kept picture, where it is shown
+    difference: Differences = field(default_factory=Differences)  # from the kept picture
     is_old: bool = False  # whether the screen lacks the last edit, which has no sample yet
     _farthest: float = 1.0  # largest distance that probes hold, in scene units
-    _measured: object = None  # what `difference` was taken of, except samples
     _content: object = None  # what the picture was drawn from
     _restarts: int = 0  # of the session, when it was drawn
 
@@ -69,8 +68,10 @@ class PictureView:
         return scale_of(self.view, self.most, self.bounces, self._farthest)
 
     def advance(self, session: Session, seconds: float, count: int) -> None:
-        """Render the samples of a frame; a kept picture that is compared gets half of the time.
+        """Render the samples of a frame.
 
+        A kept picture that is compared is rendered again to as many samples, once those of the
+        session are done; if it is not there as it was kept, it gets half of each frame instead.
         Raises RenderError if the driver has no room for that.
         """
         needed = gathered_for(self.view, session.pipeline)
@@ -83,12 +84,16 @@ class PictureView:
         self.bounces = traced_bounces(session)
         renderer = session.renderer
         kept = self._compared(session)
-        is_ahead = kept and renderer and kept.samples(renderer) < session.samples
+        as_kept = kept.samples_as_kept if kept else 0
+        if session.samples < as_kept:
+            session.stop = as_kept  # the number of samples at which no other ones are needed
+        follows = kept and (not as_kept or session.is_done)
+        is_ahead = follows and renderer and kept and kept.samples(renderer) < session.samples
         session.waits = self.holds or bool(is_ahead) or is_read
-        session.advance(seconds / 2 if kept else seconds, count)
+        session.advance(seconds / 2 if follows else seconds, count)
         if not is_denoised:
             self.denoised.rest()
-        if kept and session.renderer:
+        if kept and follows and session.renderer:
             is_alone = session.is_done or session.waits
             kept.catch_up(session.renderer, max(seconds, LONGER) if is_alone else seconds / 2)
         elif self.kept and self.view != "difference":
@@ -111,9 +116,10 @@ class PictureView:
         renderer, kept = session.renderer, self._compared(session)
         if not renderer or not session.is_shown:
             return
-        other = kept.light(renderer) if kept else None
+        other = (kept.light(renderer) or kept.as_kept) if kept else None
         if kept and other is None:
             return  # wait until it has as many samples
+        has_equal = bool(kept and kept.samples(renderer) == renderer.samples)
         settings, view = session.settings, self._possible(session)
         progress = renderer.shown, session.restarts, session.weights, session.moving.progress
         content = (
@@ -125,6 +131,7 @@ class PictureView:
             self.scale,
             self.mean,
             kept,
+            has_equal,
             self.denoised.found,
         )
         if content != self._content:
@@ -135,12 +142,12 @@ class PictureView:
         """Keep the picture, whatever the view, to compare it with later ones."""
         if not session.renderer or not session.samples:
             return
-        mean = float(session.image().radiance.mean(dtype="float64"))
+        picture = session.image().radiance, session.samples, session.renderer.settings.seed
         self.forget()
         session.moving.forget()  # what is kept is the film alone
         self._draw(session, session.renderer, "picture", None)
         self.picture.keep()
-        self.kept = ReferenceImage(session.state, mean, session.renderer.context)
+        self.kept = ReferenceImage(session.state, Kept(*picture), session.renderer.context)
         self._content = None
 
     def forget(self) -> None:
@@ -177,11 +184,7 @@ class PictureView:
             return "The kept picture has another size"
         if kept.busy:
             return kept.busy
-        if self.drawn == "difference" and self.difference:
-            return self.difference.told
-        behind = kept.samples(renderer) < session.samples and self.drawn != "difference"
-        told = f"{kept.samples(renderer)} of {session.samples} samples"
-        return f"Rendering the kept picture again: {told}" if behind else ""
+        return self.difference.told(session, kept, is_drawn=self.drawn == "difference")
 
     def release(self) -> None:
         """Release all OpenGL objects."""
@@ -255,7 +258,7 @@ class PictureView:
             elif told:
                 self.colors.draw_history(film, light, told, self.scale)
             elif other and self.kept:
-                self._measure(session, light, other)
+                self.difference.measure(session, light, other, self.kept)
                 self.colors.draw_difference(film, light, other, self.kept.mean, self.scale)
 
         return self.picture.paint(film.size, paint)
@@ -279,15 +282,6 @@ class PictureView:
             return self.picture.draw(balls, session.settings, session.is_preview)
         told = renderer.film, light, balls, self.scale
         return self.picture.paint(light.size, lambda: self.colors.draw_distances(*told))
-
-    def _measure(self, session: Session, light: moderngl.Texture, other: moderngl.Texture) -> None:
-        """Take the numbers of the difference, only now and then: it takes longer than drawing."""
-        content = session.restarts, session.weights, self.kept
-        known, is_same = self.difference, content == self._measured
-        is_near = known and known.samples <= session.samples < GROWTH * known.samples
-        if not (is_same and is_near) or session.is_done:
-            self.difference = difference_of(light, other, session.samples)
-            self._measured = content
 
     def _draw_surface(self, session: Session, renderer: Renderer) -> None:
         """Draw the first surface instead of a preview that is too noisy, once it has its AOVs."""
