@@ -2,8 +2,8 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 
+from glrt.core.memo import computed_once
 from glrt.plan.facts import SceneFacts
 from glrt.plan.methods import METHODS, Traits, reuses_points, traits_of
 from glrt.plan.particles import ParticleFacts
@@ -37,32 +37,32 @@ class Case:
         """Facts of the scene that particles need."""
         return self.facts.particles
 
-    @cached_property
+    @computed_once
     def metals(self) -> Sequence[Metal]:
         """The metals of visible surfaces."""
         return [it for it in self.facts.materials.values() if isinstance(it, Metal)]
 
-    @cached_property
+    @computed_once
     def is_lit(self) -> bool:
         """Whether the method uses lamps, and the scene has some that are sampled."""
         return self.traits.uses_lamps and self.facts.sampled_lamps > 0
 
-    @cached_property
+    @computed_once
     def has_background(self) -> bool:
         """Whether light comes from the sky."""
         return any(map(any, self.scene.background_colors))
 
-    @cached_property
+    @computed_once
     def has_image(self) -> bool:
         """Whether light comes from an image of the sky."""
         return has_image(self.scene)
 
-    @cached_property
+    @computed_once
     def has_sun(self) -> bool:
         """Whether light comes from the sun."""
         return any(self.scene.sun_radiance)
 
-    @cached_property
+    @computed_once
     def sends_particles(self) -> bool:
         """Whether particles are wanted, some light sends them, and the method weighs them."""
         particles = self.particles

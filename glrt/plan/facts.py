@@ -2,8 +2,8 @@
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from functools import cached_property
 
+from glrt.core.memo import computed_once
 from glrt.plan.lobes import LobeFacts
 from glrt.plan.media import MediaFacts
 from glrt.plan.particles import ParticleFacts, is_sampled
@@ -35,17 +35,17 @@ class SceneFacts:
     scene: Scene
     apart: Apart = "repeated"  # which meshes have a BVH of their own
 
-    @cached_property
+    @computed_once
     def finishes(self) -> tuple[Finish, ...]:
         """Finishes of the visible surfaces, in the order of their materials."""
         return tuple(self.scene.finishes)
 
-    @cached_property
+    @computed_once
     def materials(self) -> dict[str, Material]:
         """Materials that visible surfaces use, in the order of the scene file."""
         return {it.material: self.scene.materials[it.material] for it in self.finishes}
 
-    @cached_property
+    @computed_once
     def shapes(self) -> dict[str, int]:
         """Number of visible shapes of each kind."""
         found = dict.fromkeys(KINDS, 0)
@@ -53,7 +53,7 @@ class SceneFacts:
             found[shape.shape] += 1
         return found
 
-    @cached_property
+    @computed_once
     def lamps(self) -> dict[str, int]:
         """Number of visible shapes of each kind whose emission can be sampled."""
         samples = {name: is_sampled(it) for name, it in self.scene.materials.items()}
@@ -62,12 +62,12 @@ class SceneFacts:
             found[shape.shape] += samples[shape.material]
         return found
 
-    @cached_property
+    @computed_once
     def instances(self) -> tuple[int, ...]:
         """Numbers of the visible meshes that have a BVH of their own."""
         return with_own_tree(self.scene.meshes, self.scene.materials, self.apart)
 
-    @cached_property
+    @computed_once
     def _tree_sizes(self) -> tuple[int, list[int]]:
         return tree_sizes(self.scene.meshes, self.instances)
 
@@ -83,7 +83,7 @@ class SceneFacts:
         shared, own = self._tree_sizes
         return max([shared, *own])
 
-    @cached_property
+    @computed_once
     def bright_triangles(self) -> int:
         """Number of triangles whose emission could be sampled."""
         materials = self.scene.materials
@@ -95,12 +95,12 @@ class SceneFacts:
         """Whether some mesh interpolates normals."""
         return any(mesh.smooth for mesh in self.scene.meshes)
 
-    @cached_property
+    @computed_once
     def is_colored(self) -> bool:
         """Whether some mesh multiplies the colour of its material by colours of its vertices."""
         return any(has_vertex_colors(self.scene, mesh) for mesh in self.scene.meshes)
 
-    @cached_property
+    @computed_once
     def emissions(self) -> dict[str, list[Radiance]]:
         """Emissions at intensity 1 by light group: of its lamps, of the sun, and of the sky.
 
@@ -120,32 +120,32 @@ class SceneFacts:
             found[SKY_GROUP] = list(self.scene.background.gradient)
         return found
 
-    @cached_property
+    @computed_once
     def coincidence(self) -> Coincidence:
         """Flat lamps that lie in the same place as other surfaces."""
         return coincidence_of(self.scene)
 
-    @cached_property
+    @computed_once
     def glasses(self) -> dict[str, Dielectric]:
         """Glasses that are rough, tinted or have a priority, by name; highest priority first."""
         return glasses_of(self.scene, self.finishes)
 
-    @cached_property
+    @computed_once
     def camera_glass(self) -> Around:
         """The glass around the camera."""
         return around_camera(self.scene, self.glasses)
 
-    @cached_property
+    @computed_once
     def lobes(self) -> LobeFacts:
         """Facts about how the materials of visible surfaces scatter light."""
         return LobeFacts(self.materials)
 
-    @cached_property
+    @computed_once
     def media(self) -> MediaFacts:
         """Facts about the media between surfaces."""
         return MediaFacts(self.scene)
 
-    @cached_property
+    @computed_once
     def particles(self) -> ParticleFacts:
         """Facts that particles from lamps need."""
         return ParticleFacts(self.scene, self.has_sphere_tree)

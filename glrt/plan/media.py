@@ -1,11 +1,11 @@
 """Facts about the media of a scene: which are used, and where each begins."""
 
 from dataclasses import dataclass
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
+from glrt.core.memo import computed_once
 from glrt.scene.grids import edges_of_voxels, holders_of, steps_across
 from glrt.scene.loading.scene_files import check_loaded
 from glrt.scene.scene import Scene
@@ -28,17 +28,17 @@ class MediaFacts:
 
     scene: Scene
 
-    @cached_property
+    @computed_once
     def names(self) -> list[str]:
         """Names of the media that fill an object, or all of space; their rows in the kernel."""
         return self.scene.media_in_use
 
-    @cached_property
+    @computed_once
     def grids(self) -> list[str]:
         """Names of the media whose density varies; the rows of their grids in the kernel."""
         return [name for name in self.names if self.scene.media[name].density is not None]
 
-    @cached_property
+    @computed_once
     def rows(self) -> list[Filling]:
         """The rows of media in the kernel, without those of knots: one for each place of a grid."""
         found = {name: holders_of(self.scene, name) for name in self.grids}
@@ -50,7 +50,7 @@ class MediaFacts:
             return None
         return Filling(name, holder if name in self.grids else None)
 
-    @cached_property
+    @computed_once
     def transfers(self) -> list[str]:
         """Names of the media with a transfer function."""
         return [name for name in self.names if self.scene.media[name].transfer is not None]
@@ -76,13 +76,13 @@ class MediaFacts:
                 )
         return None
 
-    @cached_property
+    @computed_once
     def bounds(self) -> tuple[Bounds, ...]:
         """The bounds of all volumes, in a scene that uses media."""
         shown = set(self.scene.shown)
         return tuple(it for it in bounds_of(self.scene) if it.number in shown and self.names)
 
-    @cached_property
+    @computed_once
     def is_ranked(self) -> bool:
         """Whether volumes overlap by priority."""
         return has_ranks(self.scene)
@@ -97,14 +97,14 @@ class MediaFacts:
         """Materials of the bounds that others may displace, so that segments pass them."""
         return {self.scene.objects[it.number].material for it in self.bounds if self.is_ranked}
 
-    @cached_property
+    @computed_once
     def camera_volumes(self) -> int:
         """The volumes around the camera, where they are ranked: a bit for each of `bounds`."""
         eye, things = np.array(self.scene.camera.position, np.float64), self.scene.objects
         holding = [things[it.number].holds(eye) for it in self.bounds if self.is_ranked]
         return sum(1 << row for row, holds in enumerate(holding) if holds)
 
-    @cached_property
+    @computed_once
     def around_camera(self) -> Filling | None:
         """The medium around the camera; None for vacuum."""
         number = volume_around(self.scene, np.array(self.scene.camera.position, np.float64))

@@ -1,11 +1,11 @@
 """Particles from lamps: lamps that send them, targets at which they are aimed, and their limits."""
 
 from dataclasses import dataclass
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
+from glrt.core.memo import computed_once
 from glrt.scene.materials.base import Opaque
 from glrt.scene.materials.dielectric import Dielectric
 from glrt.scene.materials.kinds import Material
@@ -67,13 +67,13 @@ class ParticleFacts:
     scene: Scene
     has_sphere_tree: bool  # whether rays find spheres by a BVH
 
-    @cached_property
+    @computed_once
     def lamps(self) -> list[Object]:
         """Lamps that send particles, in addition to the sun or the sky."""
         known = (thing for thing in self.scene.visible if thing.shape in SAMPLED)
         return [thing for thing in known if is_sampled(self.scene.materials[thing.material])]
 
-    @cached_property
+    @computed_once
     def _is_finite(self) -> bool:
         return any(thing.is_bounded for thing in self.scene.visible)
 
@@ -88,7 +88,7 @@ class ParticleFacts:
         others = bool(self.lamps) or any(self.scene.sun_radiance)
         return self._is_finite and not others and any(map(any, self.scene.background_colors))
 
-    @cached_property
+    @computed_once
     def targets(self) -> list[Ball]:
         """Balls around boxes, cylinders and meshes that make caustics: particles are aimed there.
 
@@ -107,12 +107,12 @@ class ParticleFacts:
                 found.append(ball)
         return found
 
-    @cached_property
+    @computed_once
     def bounds(self) -> Ball | None:
         """A ball around all shapes except planes, or None without such shapes."""
         return ball_around(self.scene)
 
-    @cached_property
+    @computed_once
     def casters(self) -> int:
         """Bits of the spheres that make caustics, at which particles can be aimed.
 
@@ -124,7 +124,7 @@ class ParticleFacts:
         materials = self.scene.materials
         return sum(1 << n for n, it in enumerate(known) if makes_caustics(materials[it.material]))
 
-    @cached_property
+    @computed_once
     def links(self) -> int:
         """Bits of the spheres through which particles can be linked to the camera.
 

@@ -6,9 +6,9 @@ other intensities and colours of its lamps, or fewer bounces, at the cost of a w
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import Literal
 
+from glrt.core.memo import computed_once
 from glrt.gpu.glsl import read
 from glrt.gpu.structs import read_constants
 from glrt.plan.facts import SceneFacts
@@ -53,12 +53,12 @@ class Plan:
         """Which meshes have a BVH of their own."""
         return self.facts.apart
 
-    @cached_property
+    @computed_once
     def needs(self) -> Needs:
         """The features of the kernel."""
         return needs_of(self.facts, self.settings)
 
-    @cached_property
+    @computed_once
     def grid(self) -> Grid | None:
         """The grid of probes; None for methods without probes."""
         return grid_of(self.scene, self.settings) if self.needs.has_probes else None

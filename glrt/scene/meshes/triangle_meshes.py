@@ -2,12 +2,13 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from glrt.core.memo import computed_once
 from glrt.core.text import counted, unknown
 from glrt.scene.meshes.creases import by_angle, by_groups
 from glrt.scene.meshes.repeated_triangles import repeated
@@ -65,18 +66,18 @@ class TriangleMesh:
         """Return what a copy in another process needs: forms of the mesh are made again there."""
         return {key: value for key, value in vars(self).items() if key not in _CACHES}
 
-    @cached_property
+    @computed_once
     def box(self) -> tuple[Floats, Floats]:
         """Lowest and highest coordinates of the vertices in use, (3,) each."""
         used = np.zeros(len(self.vertices), bool)
         used[self.faces] = True
         return self.vertices[used].min(axis=0), self.vertices[used].max(axis=0)
 
-    @cached_property
+    @computed_once
     def _place(self) -> Ints:
         return places(self.vertices)
 
-    @cached_property
+    @computed_once
     def _sums(self) -> Floats:
         """Normals, (v, 3), of any length: the given ones, and means where none is given."""
         if self.normals is None:
@@ -86,7 +87,7 @@ class TriangleMesh:
             return self.normals
         return np.where(is_given, self.normals, self._mean_normals())
 
-    @cached_property
+    @computed_once
     def shading_normals(self) -> Floats:
         """Unit normals, (v, 3): the given ones, else means of the triangles around each vertex."""
         given = self._sums
@@ -94,7 +95,7 @@ class TriangleMesh:
         unit: Floats = np.divide(given, length, out=np.zeros_like(given), where=length > 0)
         return unit
 
-    @cached_property
+    @computed_once
     def rounded(self) -> float:
         """The share of its area on which interpolated normals round sharp edges off, 0 to 1.
 
@@ -104,7 +105,7 @@ class TriangleMesh:
             return 0.0
         return rounded_share(self.vertices, self.faces, self.shading_normals)
 
-    @cached_property
+    @computed_once
     def shading_tangents(self) -> Floats:
         """Tangents, (v, 3): the given ones, else means; zero where there is none."""
         given = np.zeros_like(self.vertices) if self.tangents is None else self.tangents
@@ -114,7 +115,7 @@ class TriangleMesh:
         normals, uv = self.shading_normals, self.uv[:, :2]
         return np.where(is_given, given, mean_tangents(self.vertices, self.faces, normals, uv))
 
-    @cached_property
+    @computed_once
     def opening(self) -> str:
         """Why the mesh encloses no volume, in words; empty if it encloses one."""
         place = self._place
@@ -131,14 +132,14 @@ class TriangleMesh:
             return f"{counted(lonely, 'edge')} belong{'s' if lonely == 1 else ''} to one triangle"
         return ""
 
-    @cached_property
+    @computed_once
     def outward(self) -> "TriangleMesh":
         """The mesh, with the triangles of a closed one turned over if they face inwards."""
         if self.opening or self._volume() >= 0:
             return self
         return replace(self, faces=self.faces[:, ::-1].copy(), is_turned=not self.is_turned)
 
-    @cached_property
+    @computed_once
     def parts(self) -> dict[str, "TriangleMesh"]:
         """Triangles of each material of the file, by name, with the normals of the whole mesh."""
         if self.labels is None:
@@ -176,7 +177,7 @@ class TriangleMesh:
             raise ValueError(unknown("variant", name, self.variants, "The file has"))
         return self._varied(name)
 
-    @cached_property
+    @computed_once
     def _varied(self) -> Callable[[str | None], "TriangleMesh"]:
         return lru_cache(MOST_KEPT)(self._with_variant)
 
@@ -207,7 +208,7 @@ class TriangleMesh:
         """
         return self._creased(degrees)
 
-    @cached_property
+    @computed_once
     def _creased(self) -> Callable[[float], "TriangleMesh"]:
         return lru_cache(MOST_KEPT)(self._divided)
 

@@ -25,14 +25,14 @@ _METHODS = {  # a line on each, in the list of methods
     "march": "steps through smoke",
 }
 SETTINGS = {c.name: c for c in controls_of(Settings, leave_out=("crop", "denoise", "adaptive"))}
-_CHEAPEST = (
-    "; `glrt inspect SCENE --error 5%` measures which is the cheapest to an error, and `glrt chart "
-    "SCENE` draws the error of all over their time"
+_METHOD = (
+    "how light is found: the list has a line on each; `glrt inspect SCENE --error 5%` measures "
+    "which is the cheapest to an error, and `glrt chart SCENE` draws the error of all over time"
 )
 SETTINGS["method"] = replace(
     SETTINGS["method"],
     told=tuple(_METHODS[name] for name in SETTINGS["method"].choices),
-    help=SETTINGS["method"].help + _CHEAPEST,
+    help=_METHOD,
 )
 PREFERENCES = controls_of(Preferences, leave_out=("tab",))
 MOVING = ("mode", "temporal", "predictor")  # with the camera

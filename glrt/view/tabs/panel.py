@@ -1,5 +1,7 @@
 """The main panel: the values of the scene and all settings, by subject, in tabs."""
 
+from textwrap import shorten
+
 from imgui_bundle import imgui
 
 from glrt.core.memo import kept_for_the_same
@@ -13,7 +15,9 @@ from glrt.view.tabs.sections import SECTIONS, TABS, Section, is_wanted, tab_of
 from glrt.view.widgets.cost_badges import COLORS
 from glrt.view.widgets.finder import FINDER
 from glrt.view.widgets.steady_widget import ANCHOR
+from glrt.view.widgets.tips import explain
 
+_LETTERS = 90  # of a caution: two lines of a panel
 _FRAMES = 3  # after a tab was chosen: its rows have their heights afterwards
 
 
@@ -89,11 +93,15 @@ def _bring_to_sight(top: float) -> None:
 
 
 def _cautions(app: App) -> None:
-    """Draw cautions where a scene exceeds float32 or the model; `glrt render` prints them too."""
+    """Draw cautions where a scene exceeds float32 or the model; `glrt render` prints them too.
+
+    The panel has their beginnings, and tooltips the whole.
+    """
     for caution in _found(app.session.scene, app.session.settings):
         imgui.push_style_color(imgui.Col_.text, COLORS[Cost.RESTART])
-        imgui.text_wrapped(f"Caution: {caution}")
+        imgui.text_wrapped(f"Caution: {shorten(caution, _LETTERS, placeholder=' ...')}")
         imgui.pop_style_color()
+        explain(caution)
 
 
 _found = kept_for_the_same(cautions)
