@@ -71,6 +71,20 @@ def test_edits_that_take_long_leave_less_for_the_sample(clock: Clock) -> None:
     assert 0.3 / preview.factor**2 <= FRAME - 0.05 + 1e-6
 
 
+def test_the_first_edit_is_expected_to_take_long(clock: Clock) -> None:
+    """What is known of edits counts from then on."""
+    one, other = learnt(clock, 0.08), learnt(clock, 0.08)
+    one.expect(0.05)
+    for preview in (one, other):
+        preview.begin(PIXELS, FRAME)
+    assert 0.08 / one.factor**2 <= FRAME - 0.05 < 0.08 / other.factor**2
+    other.edited(0.01)
+    other.expect(0.05)
+    other.end()
+    other.begin(PIXELS, FRAME)
+    assert other.factor == 1
+
+
 def test_samples_have_a_share_of_the_frame_however_long_edits_take(clock: Clock) -> None:
     preview, renderer = learnt(clock, 0.3), Slow(clock, 1e-5, (50, 50))
     for _ in range(40):

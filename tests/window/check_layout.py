@@ -52,6 +52,9 @@ def tooltips_wrap(hand: Hand) -> None:
         hand.until(lambda: hand.there(lambda: tooltip_width() > 0))
         hand.ctx.yield_(3)
         assert hand.there(tooltip_width) < hello_imgui.em_size(32), reference
+        panel = hand.ctx.window_info("//Controls").window
+        tooltip: Any = imgui.internal.find_window_by_name("##Tooltip_00")
+        assert tooltip.pos.x >= panel.pos.x + panel.size.x, "next to the panel"
         hand.ctx.mouse_move("exposure")
 
 

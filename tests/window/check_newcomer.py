@@ -9,6 +9,7 @@ from imgui_bundle import imgui
 
 from glrt.view import file_dialogs
 from glrt.view.controls import replaced
+from glrt.view.tabs import panel
 from glrt.view.tabs.sections import TABS
 from glrt.view.widgets import fields
 from tests.window.check_layout import resized
@@ -193,3 +194,47 @@ def the_box_of_the_tour_stays_in_a_window_that_gets_another_size(hand: Hand) -> 
     finally:
         resized(hand, (usual[0], usual[1]))
         app.tour_step = None
+
+
+@check
+def what_becomes_of_a_is_said(hand: Hand) -> None:
+    """A picture that is saved is B alone; a picture that is kept anew is not rendered further."""
+    app, ctx, saved = hand.window.app, hand.ctx, Path("b-alone.png")
+    hand.until(lambda: hand.session.samples > 0)
+    ctx.item_click("//Controls/keep this picture")
+    ctx.item_click("//Controls/render A too")
+    hand.until(lambda: app.pair.picture is not None)
+    with reported_lines() as lines:
+        hand.there(lambda: app.files.save_picture(str(saved)))
+        hand.until(lambda: any(line.endswith("b-alone.png: B alone, without A") for line in lines))
+        ctx.item_click("//Controls/keep this picture")
+        hand.until(lambda: "A is this picture now, and is not rendered further" in lines)
+    ctx.item_click("//Controls/forget it")
+    ctx.yield_(2)
+    with reported_lines() as lines:
+        hand.there(lambda: app.files.save_picture(str(saved)))
+        hand.until(lambda: any(line.endswith("b-alone.png") for line in lines))
+    saved.unlink()
+
+
+@check
+def undo_without_an_edit_says_so(hand: Hand) -> None:
+    app = hand.window.app
+    hand.there(lambda: app.session.history.forget())
+    with reported_lines() as lines:
+        press(hand, imgui.Key.z, CTRL)
+        assert "There is nothing more to undo" in lines
+        press(hand, imgui.Key.y, CTRL)
+        assert "There is nothing more to redo" in lines
+
+
+@check
+def a_long_caution_is_two_lines_of_the_panel(hand: Hand) -> None:
+    caution = "objects[0] overlaps itself in one plane, up to rounding, and so on. " * 5
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(panel, "_found", lambda *_: [])
+        top = hand.ctx.item_info("//Controls/Paths").rect_full.min.y
+        patch.setattr(panel, "_found", lambda *_: [caution])
+        hand.ctx.yield_(3)
+        moved = hand.ctx.item_info("//Controls/Paths").rect_full.min.y - top
+    assert 0 < moved < 3 * imgui.get_text_line_height_with_spacing()

@@ -57,6 +57,10 @@ class Preview:
         """Learn the seconds in which an edit reached the renderer, without compilations."""
         self._edit_seconds += MEMORY * (seconds - self._edit_seconds)
 
+    def expect(self, seconds: float) -> None:
+        """Learn before the first edit that it takes about `seconds` to reach the renderer."""
+        self._edit_seconds = self._edit_seconds or seconds
+
     def reconstructed(self, seconds: float) -> None:
         """Learn the seconds in which a full picture was made of samples of some pixels."""
         self._making_seconds += MEMORY * (seconds - self._making_seconds)

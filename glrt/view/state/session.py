@@ -152,7 +152,9 @@ class Session(ShownPicture):
         if renderer.samples and not self.is_preview:  # the frame of the first sample did enough
             refusal = self.moving.prepare(renderer, self.weights, at_once=False)
             self.problem = refusal or self.problem
-            edit, start = edit + self._clock() - start, self._clock()
+            took, start = self._clock() - start, self._clock()
+            edit += took
+            self._preview.expect(took)  # the surfaces of the view, which an edit finds again
         work = self._upsampled if self._upsamples else self._preview
         work.work(renderer, target, seconds, edit)
         self.rendering += self._clock() - start
