@@ -11,6 +11,7 @@ Modules, each importing only what stands above it:
 - web_page: pages that need no network
 - threads: parts of a computation in several threads
 - stages: stages of long work, reported to who waits for it
-- memo: cache of results by the identity of the arguments
+- memo: caches of properties, and of results by the identity of the arguments
 - same_rows: whether arrays hold the same bits
+- box_pairs: pairs of boxes that touch, among many
 """

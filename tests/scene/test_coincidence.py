@@ -5,7 +5,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from glrt.scene.coincidence import _lie_together, box_pairs, coincidence_of
+from glrt.core.box_pairs import box_pairs
+from glrt.scene.coincidence import TOGETHER, _lie_together, coincidence_of
 from glrt.scene.shapes.flat_polygons import Polygons
 from glrt.scene.warnings import cautions
 from glrt.settings import settings_for
@@ -118,7 +119,8 @@ def test_boxes_that_touch_are_found_as_by_comparing_all() -> None:
     low = rng.uniform(-1, 1, (600, 3))
     high = low + 10.0 ** rng.uniform(-4, 0.5, (600, 1)) * rng.uniform(0.5, 1, (600, 3))
     some = low[:50], high[:50]
-    found = {pair for a, b in box_pairs(some, (low, high)) for pair in zip(a, b, strict=True)}
+    every = box_pairs(some, (low, high), TOGETHER)
+    found = {pair for a, b in every for pair in zip(a, b, strict=True)}
     touch = (some[0][:, None] <= high).all(axis=2) & (low <= some[1][:, None]).all(axis=2)
     assert {(a, b) for a, b in zip(*np.nonzero(touch), strict=True)} <= found
     assert len(found) < 1.1 * touch.sum()

@@ -72,7 +72,7 @@ def test_edits_that_take_long_leave_less_for_the_sample(clock: Clock) -> None:
 
 
 def test_the_first_edit_is_expected_to_take_long(clock: Clock) -> None:
-    """What is known of edits counts from then on."""
+    """Only until one was measured."""
     one, other = learnt(clock, 0.08), learnt(clock, 0.08)
     one.expect(0.05)
     for preview in (one, other):

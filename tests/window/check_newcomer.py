@@ -198,7 +198,7 @@ def the_box_of_the_tour_stays_in_a_window_that_gets_another_size(hand: Hand) -> 
 
 @check
 def what_becomes_of_a_is_said(hand: Hand) -> None:
-    """A picture that is saved is B alone; a picture that is kept anew is not rendered further."""
+    """A picture that is saved is B alone; the next picture that is kept is not rendered further."""
     app, ctx, saved = hand.window.app, hand.ctx, Path("b-alone.png")
     hand.until(lambda: hand.session.samples > 0)
     ctx.item_click("//Controls/keep this picture")

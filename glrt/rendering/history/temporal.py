@@ -88,7 +88,10 @@ class Temporal:
         self._surfaces = [Surfaces(gl), Surfaces(gl)]  # of this view, and of the previous one
         self._pass = SurfacePass(gl)
         self._resolver = resolver_of(gl, way)
-        self._is_prepared = False  # whether all passes are compiled
+        self._unprepared = [
+            False,
+            True,
+        ]  # views without and with history, for which no pass is compiled
         self._is_kept = False  # whether there is a history to begin from
         self._is_brought = False  # whether the view has one
         self._resolved_at: tuple[int, Weights | None] | None = None  # samples of the view
@@ -114,24 +117,27 @@ class Temporal:
     ) -> None:
         """Find, compile and allocate what the next edit would wait for; nothing of it is shown.
 
-        If not `at_once`, a view takes two calls: the first finds its surfaces.
+        If not `at_once`, that takes three calls: the first finds the surfaces of the view.
         """
         if not self._resolver or not renderer.samples:
             return
         is_found = self.surfaces.scene is not None
         if not is_found:
             self._find(renderer)
-        if not self._is_prepared and (is_found or at_once):
-            self._is_prepared = True
-            self._rehearse(self._resolver, renderer, weights)
+        while self._unprepared and (is_found or at_once):
+            self._rehearse(self._resolver, renderer, weights, self._unprepared.pop())
+            is_found = False
 
-    def _rehearse(self, resolver: Resolver, renderer: Renderer, weights: Weights | None) -> None:
-        self.leave(renderer, weights)
+    def _rehearse(
+        self, resolver: Resolver, renderer: Renderer, weights: Weights | None, has_history: bool
+    ) -> None:
+        """Run all passes of a view; with history, that is the picture of the same view."""
+        if has_history:
+            self.leave(renderer, weights)
         with self._gl:
-            for before in (self.surfaces, None):
-                resolver.arrive(self.surfaces, before, True)
-                resolver.show(self.surfaces, self._fresh(renderer, weights, END))
-            if self.upsampled and self.can_upsample(renderer):
+            resolver.arrive(self.surfaces, self.surfaces if has_history else None, True)
+            resolver.show(self.surfaces, self._fresh(renderer, weights, END))
+            if not has_history and self.upsampled and self.can_upsample(renderer):
                 self.upsampled.trace(renderer, self.surfaces)
         self.forget()
 
@@ -153,7 +159,8 @@ class Temporal:
             now.leave()
         is_same_light = bool(before.scene and is_lit_alike(renderer, before))
         self._is_brought = bool(is_usable)
-        self._is_prepared |= self._is_brought
+        if self._is_brought:
+            self._unprepared.clear()
         with self._gl:
             self._resolver.arrive(now, before if is_usable else None, is_same_light)
 
@@ -191,7 +198,8 @@ class Temporal:
             self._find(renderer)  # the first view of all
         with self._gl:
             found = resolver.trace(renderer, self.surfaces, factor, sampled)
-        self._is_brought = self._is_prepared = True
+        self._is_brought = True
+        self._unprepared.clear()
         return found
 
     def coarse(self, renderer: Renderer) -> moderngl.Texture | None:

@@ -163,5 +163,5 @@ class DenoisedPicture:
 
 
 def _identity(session: Session) -> object:
-    """What the halves of a picture belong to: a restart and weights of layers."""
+    """The picture that halves belong to: a restart, with weights of layers."""
     return session.restarts, session.weights if session.renderer else ()

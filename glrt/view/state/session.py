@@ -160,7 +160,7 @@ class Session(ShownPicture):
         self.rendering += self._clock() - start
         if self.is_shown:
             self._preview.deliver()
-        if not (self.is_preview or renderer.lacks(target)):
+        if self.is_done:  # no frame follows
             self.problem = self.moving.prepare(renderer, self.weights) or self.problem
 
     def _apply_pending(self, seconds: float) -> bool:
