@@ -206,14 +206,15 @@ def what_becomes_of_a_is_said(hand: Hand) -> None:
     hand.until(lambda: app.pair.picture is not None)
     with reported_lines() as lines:
         hand.there(lambda: app.files.save_picture(str(saved)))
-        hand.until(lambda: any(line.endswith("b-alone.png: B alone, without A") for line in lines))
+        hand.until(lambda: any(line.endswith(": B alone, without A") for line in lines))
         ctx.item_click("//Controls/keep this picture")
         hand.until(lambda: "A is this picture now, and is not rendered further" in lines)
     ctx.item_click("//Controls/forget it")
     ctx.yield_(2)
     with reported_lines() as lines:
         hand.there(lambda: app.files.save_picture(str(saved)))
-        hand.until(lambda: any(line.endswith("b-alone.png") for line in lines))
+        hand.until(lambda: any(line.startswith("Saved b-alone.png") for line in lines))
+    assert not any("B alone" in line for line in lines)
     saved.unlink()
 
 
