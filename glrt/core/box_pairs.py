@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 MOST_STRIPS = 1 << 10
+STRIPS_OF_BOX = 4  # that a box of the mean width lies in, at most
 PORTION = 1 << 17  # pairs that are compared at once
 
 Floats = NDArray[np.float64]
@@ -28,12 +29,13 @@ def box_pairs(
         return
     reach = slack * (high - low).max()
     along, across = np.argsort(-np.ptp(some[0], axis=0), kind="stable")[:2]
+    usual = float((some[1] - some[0])[:, across].mean())
     widths = (high - low)[:, [along, across]] + reach
     sizes = np.frexp(widths.max(axis=1))[1] // 2  # powers of 4
     for size in np.unique(sizes):
         members = np.flatnonzero(sizes == size)
         width = widths[members].max(axis=0)
-        strips = _Strips(low[members, across], width[1])
+        strips = _Strips(low[members, across], max(width[1], usual / STRIPS_OF_BOX))
         strip = strips.of(low[members, across])
         order = np.lexsort((low[members, along], strip))
         members, strip = members[order], strip[order]

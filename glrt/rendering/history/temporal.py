@@ -88,10 +88,7 @@ class Temporal:
         self._surfaces = [Surfaces(gl), Surfaces(gl)]  # of this view, and of the previous one
         self._pass = SurfacePass(gl)
         self._resolver = resolver_of(gl, way)
-        self._unprepared = [
-            False,
-            True,
-        ]  # views without and with history, for which no pass is compiled
+        self._unprepared = [False, True]  # views that are to be rehearsed: with history first
         self._is_kept = False  # whether there is a history to begin from
         self._is_brought = False  # whether the view has one
         self._resolved_at: tuple[int, Weights | None] | None = None  # samples of the view
