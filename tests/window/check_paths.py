@@ -1,6 +1,7 @@
 """The paths of a pixel: asked for by a click, drawn, reported, stored."""
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -232,19 +233,26 @@ def escape_ends_the_choice_of_a_pixel_and_then_removes_its_paths(hand: Hand) -> 
 
 
 @check
-def the_table_of_lights_reports_what_was_added_without_being_scrolled(hand: Hand) -> None:
-    """The light added stands next to its strategy, in a panel of the usual width."""
-    columns: list[str] = []
+def lines_of_a_path_report_what_was_added_and_are_not_cut(hand: Hand) -> None:
+    """The light added stands first in the line below its strategy."""
+    told: list[str] = []
+    widths: list[float] = []
+    written, dimmed = imgui.text_wrapped, imgui.text_disabled
 
-    written = imgui.text_unformatted
+    def heard(draw: Any) -> Any:
+        def draw_it(text: str) -> None:
+            told.append(text)
+            draw(text)
+            room = imgui.get_window_pos().x + imgui.get_window_size().x
+            widths.append(imgui.get_item_rect_max().x - room)
 
-    def heard(text: str) -> None:
-        columns.append(text)
-        written(text)
+        return draw_it
 
     ask(hand)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(imgui, "text_unformatted", heard)
-        hand.until(lambda: "added" in columns)
-    found_by = columns.index("found by")
-    assert columns[found_by + 1] == "added"
+        patch.setattr(imgui, "text_wrapped", heard(written))
+        patch.setattr(imgui, "text_disabled", heard(dimmed))
+        hand.until(lambda: any(line.startswith("added ") for line in told))
+    below = next(row for row, line in enumerate(told) if line.startswith("added "))
+    assert "sampling" in told[below - 1] or "scattering" in told[below - 1]
+    assert max(widths) <= 0
