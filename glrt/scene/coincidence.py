@@ -134,19 +134,15 @@ def _on_planes(
 
 def _overlaps(lamps: Polygons, others: Polygons) -> Iterator[_Shared]:
     """Yield polygons that overlap lamps in one plane."""
-    boxes, normals = (lamps.boxes, others.boxes), (lamps.normals, others.normals)
-    for a, b in box_pairs(*boxes, TOGETHER):
-        corners = [np.minimum(boxes[0][0][a], boxes[1][0][b])]
-        corners += [np.maximum(boxes[0][1][a], boxes[1][1][b])]
-        most = 2 * TOGETHER * np.linalg.norm(corners[1] - corners[0], axis=1)
-        near = _gaps(lamps.corners[a, 0], others.corners[b], normals[0][a]) <= most
-        near |= _gaps(others.corners[b, 0], lamps.corners[a], normals[1][b]) <= most
-        first, second = lamps.of(a[near]), others.of(b[near])
+    normals = lamps.normals, others.normals
+    for a, b in box_pairs(lamps.boxes, others.boxes, TOGETHER):
+        flat = normals[0][a], normals[1][b]
+        rows = np.flatnonzero(_lie_together(lamps.of(a), others.of(b), flat))
+        first, second = lamps.of(a[rows]), others.of(b[rows])
         same = (first.corners[:, :3] == second.corners[:, :3]).all(axis=(1, 2))
-        same &= first.owner == second.owner
-        rows = np.flatnonzero(~same & _lie_together(first, second))
-        if len(rows):
-            yield _shared(first.of(rows), second.owner[rows], second.corners[rows])
+        apart = ~same | (first.owner != second.owner)
+        if apart.any():
+            yield _shared(first.of(apart), second.owner[apart], second.corners[apart])
 
 
 def _gaps(at: Floats, corners: Floats, normals: Floats) -> Floats:
@@ -166,20 +162,24 @@ def _shared(some: Polygons, others: Ints, more: Floats) -> _Shared:
     return _Shared({(int(a), int(b)) for a, b in pairs}, corners)
 
 
-def _lie_together(first: Polygons, second: Polygons) -> NDArray[np.bool_]:
-    """Return whether pairs of polygons lie in one plane, up to rounding, and overlap, (n,)."""
-    flat = first.normals, second.normals
-    corners = np.concatenate([first.corners, second.corners], axis=1)
-    size = np.linalg.norm(corners.max(axis=1) - corners.min(axis=1), axis=1)
-    gaps = [
-        np.abs(_dots(there.corners - here.corners[:, :1], normal[:, None])).max(axis=1)
-        for here, there, normal in ((first, second, flat[0]), (second, first, flat[1]))
-    ]
+def _lie_together(
+    first: Polygons, second: Polygons, flat: tuple[Floats, Floats]
+) -> NDArray[np.bool_]:
+    """Return whether pairs of polygons lie in one plane, up to rounding, and overlap, (n,).
+
+    `flat` are their unit normals, (n, 3) each, or 0.
+    """
+    (low, high), (lower, higher) = first.boxes, second.boxes
+    size = np.linalg.norm(np.maximum(high, higher) - np.minimum(low, lower), axis=1)
+    gaps = (
+        _gaps(first.corners[:, 0], second.corners, flat[0]),
+        _gaps(second.corners[:, 0], first.corners, flat[1]),
+    )
     together: NDArray[np.bool_] = np.minimum(*gaps) <= TOGETHER * size
-    together &= ~_lean(first, second)
     together &= flat[0].any(axis=1) & flat[1].any(axis=1)
     rows = np.flatnonzero(together)
-    together[rows] = _overlap(first.of(rows), second.of(rows), flat[0][rows])
+    some, others = first.of(rows), second.of(rows)
+    together[rows] = ~_lean(some, others) & _overlap(some, others, flat[0][rows])
     return together
 
 

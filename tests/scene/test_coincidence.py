@@ -138,5 +138,6 @@ def test_a_round_lamp_on_a_large_floor_shares_no_plane_with_it() -> None:
     lamp_at = np.array([[0.0, 3e-4, 0.01], [0.01, 3e-4, 0], [0, 0, 0]])
     flat = np.array([[0.0, 3e-4, 0.01], [0.01, 3e-4, 0], [0, 3e-4, 0]])
     ground = Polygons(floor[None], np.array([0]))
-    assert not _lie_together(ground, Polygons(lamp_at[None], np.array([1])))[0]
-    assert _lie_together(ground, Polygons(flat[None], np.array([1])))[0]
+    for corners, shares in ((lamp_at, False), (flat, True)):
+        lamp = Polygons(corners[None], np.array([1]))
+        assert _lie_together(ground, lamp, (ground.normals, lamp.normals))[0] == shares
