@@ -74,7 +74,7 @@ class App(Selection):
     shows_start: bool = False  # whether scenes to open are shown in place of the picture
     paths: PathExplorer = field(init=False)
     timeline: Timeline = field(init=False)
-    silhouette: Silhouette = field(init=False)  # of the selected mesh
+    silhouette: Silhouette = field(init=False)  # of the selected meshes
     tour_step: int | None = 0  # step on the screen; None: closed until the next start
     tour_beside: tuple[float, float] = (0.0, 0.0)  # window size when the tour was placed
     outside: tuple[float, float] = (35.0, 25.0)  # degrees, of the view of paths from outside

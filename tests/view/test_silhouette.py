@@ -28,10 +28,13 @@ def silhouette(ctx: moderngl.Context) -> Iterator[Silhouette]:
 
 
 def alpha(
-    silhouette: Silhouette, mesh: Mesh = MESH, camera: Camera = CAMERA, seen: Rectangle = PLACE
+    silhouette: Silhouette,
+    *meshes: Mesh,
+    camera: Camera = CAMERA,
+    seen: Rectangle = PLACE,
 ) -> Any:
-    """Opacity of the line, row 0 on top."""
-    texture = silhouette.draw(mesh, camera, PLACE, seen)
+    """Opacity of the line, of MESH if none is given; row 0 on top."""
+    texture = silhouette.draw(meshes or (MESH,), camera, PLACE, seen)
     rows = np.frombuffer(texture.read(), np.uint8).reshape(texture.height, texture.width, 4)
     return rows[::-1, :, 3] / 255
 
@@ -75,6 +78,23 @@ def test_a_mesh_that_moves_or_is_edited_is_drawn_again(silhouette: Silhouette) -
     assert np.array_equal(alpha(silhouette, replaced(MESH, translate=MESH.translate)), before)
     turned = alpha(silhouette, camera=replaced(CAMERA, fov=70.0))
     assert 0 < turned.sum() < before.sum()
+
+
+def test_meshes_that_are_apart_each_have_their_line(silhouette: Silhouette) -> None:
+    one, other = (replaced(MESH, translate=(x, 0.1, 0.3)) for x in (-0.8, 1.4))
+    alone = [alpha(silhouette, mesh) for mesh in (one, other)]
+    assert all(line.any() for line in alone)
+    assert not (alone[0] * alone[1]).any()
+    assert np.array_equal(alpha(silhouette, one, other), np.maximum(*alone))
+    assert np.array_equal(alpha(silhouette, other), alone[1])
+
+
+def test_meshes_that_overlap_have_one_line_around_both(silhouette: Silhouette) -> None:
+    near = ball_mesh(translate=(0.5, 0.1, 0.3))
+    both = alpha(silhouette, MESH, near)
+    assert both.any()
+    assert (both[covered()] == 0).mean() > 0.99  # the other's line does not cross it
+    assert not np.array_equal(both, alpha(silhouette))
 
 
 def test_behind_the_camera_and_around_it_there_is_no_line(silhouette: Silhouette) -> None:

@@ -153,30 +153,28 @@ def _pixel_values(app: App, seen: Rectangle) -> None:
 
 
 def _outline(app: App, seen: Rectangle) -> None:
-    """Draw the outlines of the selected objects, fainter while the mouse drags something.
-
-    Of the meshes, the last alone has one.
-    """
+    """Draw the outlines of the selected objects, fainter while the mouse drags something."""
     if min(seen[2:]) < 1:
         return
-    objects, last = app.session.scene.objects, app.selected_shape
+    objects = app.session.scene.objects
+    chosen = [objects[number] for number in sorted(app.chosen) if not objects[number].hidden]
     fade = _FADED if is_dragging() else 1.0
-    for shape in (objects[number] for number in app.chosen):
-        if not shape.hidden and (shape is last or not isinstance(shape, Mesh)):
-            _outline_of(app, shape, seen, fade)
+    for shape in chosen:
+        if not isinstance(shape, Mesh):
+            _edges_of(app, shape, fade)
+    if meshes := [shape for shape in chosen if isinstance(shape, Mesh)]:
+        line = app.silhouette.draw(meshes, app.camera, app.rectangle, seen)
+        corner, end = seen[:2], (seen[0] + seen[2], seen[1] + seen[3])
+        tint = imgui.get_color_u32((1.0, 1.0, 1.0, fade))
+        painter = imgui.get_window_draw_list()
+        painter.add_image(imgui.ImTextureRef(line.glo), corner, end, (0, 1), (1, 0), tint)
 
 
-def _outline_of(app: App, shape: Shape, seen: Rectangle, fade: float) -> None:
+def _edges_of(app: App, shape: Shape, fade: float) -> None:
     left, top, width, height = app.rectangle
     settings = app.session.settings
     painter, here = imgui.get_window_draw_list(), (left, top)
-    if isinstance(shape, Mesh):
-        line = app.silhouette.draw(shape, app.camera, app.rectangle, seen)
-        corner, end = seen[:2], (seen[0] + seen[2], seen[1] + seen[3])
-        tint = imgui.get_color_u32((1.0, 1.0, 1.0, fade))
-        painter.add_image(imgui.ImTextureRef(line.glo), corner, end, (0, 1), (1, 0), tint)
-        return
-    edges = _edges if shape is app.selected_shape else outline  # the last result is kept
+    edges = _edges if shape is app.selected_shape else outline  # the last results are kept
     lines = edges(shape, app.camera, settings.width / settings.height)
     places = (lines * (width, height) + here).tolist()
     painter.push_clip_rect(here, (left + width, top + height), True)

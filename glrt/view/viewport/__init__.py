@@ -10,7 +10,7 @@ Modules, each importing only what stands above it:
 - pick: the object under a point of the picture
 - black: why the picture is black
 - outline: outline of an object in the picture
-- silhouette: the line around a mesh in the picture
+- silhouette: the line around meshes in the picture
 - path_lines: paths as lines, and a camera outside
 - transform: moves of shapes
 - picture_view: a view of the render, with the kept picture

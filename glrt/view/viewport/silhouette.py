@@ -1,4 +1,7 @@
-"""The line around all that a mesh covers in the picture, drawn from its triangles."""
+"""The line around all that meshes cover in the picture, drawn from their triangles."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import moderngl
 import numpy as np
@@ -20,8 +23,21 @@ _VERSION = "410 core"
 WIDTH = 1.5  # pixels of the bright line
 
 
+@dataclass(frozen=True)
+class _Corners:
+    """Corners of triangles on the driver, relative to their middle."""
+
+    of: TriangleMesh
+    buffer: moderngl.Buffer
+    triangles: moderngl.VertexArray
+
+    def release(self) -> None:
+        self.triangles.release()
+        self.buffer.release()
+
+
 class Silhouette:
-    """Draws the line around one mesh; the corners of the last mesh stay on the driver."""
+    """Draws one line around meshes; the corners of the last ones stay on the driver."""
 
     def __init__(self, gl: moderngl.Context) -> None:
         """Compile and allocate nothing before it is needed."""
@@ -29,33 +45,31 @@ class Silhouette:
         self._mask, self._line = Canvas(gl), Canvas(gl)
         self._around = DrawnPass(gl, "silhouette_line.frag")
         self._program: moderngl.Program | None = None
-        self._of: TriangleMesh | None = None
-        self._triangles: moderngl.VertexArray | None = None
-        self._corners: moderngl.Buffer | None = None
+        self._kept: list[_Corners] = []
         self._drawn: bytes = b""
 
     def draw(
-        self, mesh: Mesh, camera: Camera, place: Rectangle, seen: Rectangle
+        self, meshes: Sequence[Mesh], camera: Camera, place: Rectangle, seen: Rectangle
     ) -> moderngl.Texture:
         """Draw the line over the part `seen` of a picture at `place`, rectangles on the screen.
 
-        The texture is valid until the next call; its row 0 is the lowest.
+        Where meshes overlap in the picture, the line is around all of them. The texture is valid
+        until the next call; its row 0 is the lowest.
         """
-        triangles = mesh.triangles
-        if triangles is not self._of:
-            self._take(triangles)
+        self._take([mesh.triangles for mesh in meshes])
         size = max(round(seen[2]), 1), max(round(seen[3]), 1)
-        matrix = to_part(camera, place, seen) @ _to_scene(mesh, _middle(triangles))
-        content = np.ascontiguousarray(matrix.T, np.float32).tobytes()
-        if (wanted := content + bytes(np.array(size))) != self._drawn:
-            self._redraw(content, size)
+        onto = to_part(camera, place, seen)
+        matrices = [onto @ _to_scene(mesh, _middle(mesh.triangles)) for mesh in meshes]
+        content = np.array([matrix.T for matrix in matrices], np.float32)
+        if (wanted := content.tobytes() + bytes(np.array(size))) != self._drawn:
+            self._redraw(meshes, content, size)
             self._drawn = wanted
         assert self._line.texture
         return self._line.texture
 
     def release(self) -> None:
         """Release all OpenGL resources."""
-        self._forget()
+        self._take([])
         self._mask.release()
         self._line.release()
         self._around.release()
@@ -63,35 +77,45 @@ class Silhouette:
             self._program.release()
         self._program = None
 
-    def _redraw(self, matrix: bytes, size: tuple[int, int]) -> None:
+    def _redraw(
+        self, meshes: Sequence[Mesh], matrices: NDArray[np.float32], size: tuple[int, int]
+    ) -> None:
         mask = self._mask.sized(size)
         assert self._program
-        assert self._triangles
-        self._program["to_part"] = tuple(np.frombuffer(matrix, np.float32).tolist())
         with self._gl.scope(mask, moderngl.NOTHING):
             mask.clear()
-            self._triangles.render(moderngl.TRIANGLES)
+            for mesh, matrix in zip(meshes, matrices, strict=True):
+                self._program["to_part"] = tuple(matrix.ravel().tolist())
+                self._of(mesh.triangles).triangles.render(moderngl.TRIANGLES)
         assert self._mask.texture
         textures = {"mask": self._mask.texture}
         self._around.draw(self._line.sized(size), textures, {"width": WIDTH})
 
-    def _take(self, triangles: TriangleMesh) -> None:
-        """Write the corners of triangles to the driver, relative to their middle."""
-        self._forget()
+    def _of(self, triangles: TriangleMesh) -> _Corners:
+        return next(corners for corners in self._kept if corners.of is triangles)
+
+    def _take(self, wanted: Sequence[TriangleMesh]) -> None:
+        """Write the corners of triangles to the driver where they are not; release all others."""
+        for corners in self._kept:
+            if not _holds(wanted, corners.of):
+                corners.release()
+                self._drawn = b""
+        self._kept = [corners for corners in self._kept if _holds(wanted, corners.of)]
+        for triangles in wanted:
+            if not _holds([corners.of for corners in self._kept], triangles):
+                self._kept.append(self._written(triangles))
+
+    def _written(self, triangles: TriangleMesh) -> _Corners:
         if not self._program:
             stages = (Source(f"silhouette.{kind}", version=_VERSION) for kind in ("vert", "frag"))
             self._program = drawing(self._gl, *stages)
         vertices = np.asarray(triangles.vertices - _middle(triangles), np.float32)
-        self._corners = self._gl.buffer(vertices[triangles.faces].tobytes())
-        self._triangles = self._gl.vertex_array(self._program, self._corners, "corner")
-        self._of = triangles
+        buffer = self._gl.buffer(vertices[triangles.faces].tobytes())
+        return _Corners(triangles, buffer, self._gl.vertex_array(self._program, buffer, "corner"))
 
-    def _forget(self) -> None:
-        for resource in (self._triangles, self._corners):
-            if resource:
-                resource.release()
-        self._of = self._triangles = self._corners = None
-        self._drawn = b""
+
+def _holds(meshes: Sequence[TriangleMesh], mesh: TriangleMesh) -> bool:
+    return any(one is mesh for one in meshes)
 
 
 def _middle(triangles: TriangleMesh) -> Array:
