@@ -7,6 +7,7 @@ import moderngl
 import numpy as np
 import pytest
 
+import glrt
 from glrt.scene.camera import Camera
 from glrt.scene.shapes.mesh import Mesh
 from glrt.view.controls import replaced
@@ -17,6 +18,8 @@ from tests.view.test_outline import CAMERA, ball_mesh, is_met
 WIDTH, HEIGHT = 96, 64  # of the aspect that `is_met` takes
 PLACE: Rectangle = (10.0, 20.0, float(WIDTH), float(HEIGHT))
 MESH = ball_mesh(rotate=(10, 20, 30), translate=(0.2, 0.1, 0.3))
+CORNERS = np.array([(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)], float)
+SIDES = [(x, y, z) for x in (0, 1) for y in (2, 3) for z in (4, 5)]
 FAR = 4  # pixels that the line reaches, at most
 
 
@@ -37,6 +40,11 @@ def alpha(
     texture = silhouette.draw(meshes or (MESH,), camera, PLACE, seen)
     rows = np.frombuffer(texture.read(), np.uint8).reshape(texture.height, texture.width, 4)
     return rows[::-1, :, 3] / 255
+
+
+def octahedron(**more: Any) -> Mesh:
+    """In the same box as the ball of MESH."""
+    return glrt.Mesh(CORNERS, SIDES, material="a", **{"scale": (0.5, 0.7, 0.4), **more})
 
 
 def covered() -> Any:
@@ -81,12 +89,21 @@ def test_a_mesh_that_moves_or_is_edited_is_drawn_again(silhouette: Silhouette) -
 
 
 def test_meshes_that_are_apart_each_have_their_line(silhouette: Silhouette) -> None:
-    one, other = (replaced(MESH, translate=(x, 0.1, 0.3)) for x in (-0.8, 1.4))
+    one = replaced(MESH, translate=(-0.8, 0.1, 0.3))
+    other = octahedron(translate=(1.4, 0.1, 0.3))
     alone = [alpha(silhouette, mesh) for mesh in (one, other)]
     assert all(line.any() for line in alone)
     assert not (alone[0] * alone[1]).any()
     assert np.array_equal(alpha(silhouette, one, other), np.maximum(*alone))
     assert np.array_equal(alpha(silhouette, other), alone[1])
+
+
+def test_another_mesh_in_the_place_of_one_has_its_own_line(silhouette: Silhouette) -> None:
+    place: Any = {"rotate": (10, 20, 30), "translate": (0.2, 0.1, 0.3)}
+    ball, other = ball_mesh(**place), octahedron(**place)
+    assert np.allclose(ball.triangles.box, other.triangles.box)
+    before = alpha(silhouette, ball)
+    assert 0 < alpha(silhouette, other).sum() < before.sum()
 
 
 def test_meshes_that_overlap_have_one_line_around_both(silhouette: Silhouette) -> None:
