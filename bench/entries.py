@@ -16,8 +16,8 @@ import numpy as np
 from bench.contest import Array, seconds_to
 from bench.peer import Peer, Request
 from bench.turns import Command, Entry, interleaved, samples_for, started
+from glrt.samplers import DIVISIONS
 from glrt.scene.scene import Scene
-from glrt.settings import BLOCKS
 
 TARGET_ERROR = 0.02  # relative RMS
 TRIAL_ROUNDS = 4
@@ -40,7 +40,7 @@ def request(scene: Scene, size: int, **asked: Any) -> Request:
 def ours(scene: Scene, size: int, sampler: str = "sobol") -> Entry:
     """glrt with its default method."""
     asked = request(scene, size, method="mis", sampler=sampler)
-    return Entry(f"glrt mis, {sampler}", GLRT, asked, BLOCKS[sampler])
+    return Entry(f"glrt mis, {sampler}", GLRT, asked, DIVISIONS[sampler].block)
 
 
 def alike(scene: Scene, size: int) -> list[Entry]:

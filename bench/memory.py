@@ -45,7 +45,7 @@ def measure(size: int, sampler: Sampler) -> Row:
     block = settings.block
     textures = 2 * (2 if block == 1 else 3)  # mean, variance, incomplete block; all twice
     picture = PICTURE + (BEGUN if block > 1 else 0)
-    if scrambles := settings.scrambles:  # in place of an incomplete block
+    if scrambles := settings.division.scrambles:  # in place of an incomplete block
         textures, picture = 2 * (2 + scrambles), PICTURE + scrambles * TEXEL
     film, picture = textures * TEXEL * size**2, picture * size**2
     return Row(size, sampler, large[0], large[1], small[1], film, picture)

@@ -8,6 +8,7 @@ Modules and packages, each importing only what stands above it:
 - process: signals, standard streams, time and memory of a command
 - editable: the range and cost of an edit that fields of models declare
 - phong: constants of Phong's model
+- samplers: how each sampler divides the samples of a pixel
 - settings: every render setting
 - setting_options: these settings as keywords of functions
 - gpu: OpenGL; knows no scene

@@ -13,6 +13,7 @@ from glrt.editable import Editable as Editable
 from glrt.editable import Frozen as Frozen
 from glrt.editable import editable_of as editable_of
 from glrt.phong import Phong
+from glrt.samplers import DIVISIONS, Division
 
 Method = Literal[
     "naive",
@@ -30,7 +31,7 @@ Method = Literal[
     "march",
 ]
 Effect = Literal["shadows", "reflections", "refractions", "ambient_occlusion", "gi"]
-Sampler = Literal["sobol", "sobol64", "net", "independent"]
+Sampler = Literal["sobol", "sobol64", "net", "shared", "independent"]
 Caustics = Literal["off", "on"]
 Adaptive = Literal["off", "on"]
 ToneMap = Literal["none", "aces", "agx", "neutral"]
@@ -40,8 +41,6 @@ Denoise = Literal["none", "oidn", "nlm", "auto"]
 Reuse = Literal["none", "temporal", "spatial", "both"]
 
 MAX_SAMPLES = 1 << 20  # a float32 running mean is good up to here
-NET = 8  # scrambles of sampler net: that of shaders_glsl/film/net.glsl
-BLOCKS = {"sobol": 16, "sobol64": 64, "net": NET, "independent": 1}  # samples of a block
 GUIDES: tuple[Aov, ...] = ("albedo", "normal")  # AOVs that guide a denoiser
 TERMS: tuple[Term, ...] = get_args(Term)  # AOVs that are parts of the picture's light
 EFFECTS: tuple[Effect, ...] = get_args(Effect)  # of rays, by method hybrid
@@ -120,7 +119,10 @@ class Settings(RenderSettings):
         description="sobol: scrambled Sobol' points in blocks of 16 samples, least noise in most "
         "scenes; sobol64: blocks of 64 samples, even less noise under smooth lighting, with an "
         "error from 128 samples on; net: samples of a pixel fill 8 nets that keep growing, less "
-        "noise from 256 samples on; independent: independent random numbers",
+        "noise from 256 samples on; shared: sobol with half of its blocks the same in all pixels, "
+        "and neighbours on an object are combined without bias: less noise in large pictures of "
+        "matte surfaces and smooth meshes, from 256 samples on; independent: independent random "
+        "numbers",
     )
     roulette: Annotated[bool, Editable(Cost.RECOMPILE)] = Field(
         True,
@@ -203,32 +205,31 @@ class Settings(RenderSettings):
         return (self.crop or (0, 0, self.width, self.height))[2:]
 
     @property
+    def division(self) -> Division:
+        """How the sampler divides the samples of a pixel."""
+        return DIVISIONS[self.sampler]
+
+    @property
     def block(self) -> int:
         """Number of samples in a block: renders in parts are cut between blocks.
 
         A block is an observation, over which errors are estimated. With nets, it is one sample of
         each scramble, and a scramble is an observation.
         """
-        return BLOCKS[self.sampler]
+        return self.division.block
 
     @property
-    def scrambles(self) -> int:
-        """Number of nets, each with a scramble of its own, that the samples fill; 0: blocks."""
-        return NET if self.sampler == "net" else 0
-
-    def observations(self, samples: int) -> int:
-        """Number of complete observations of `samples` per pixel."""
-        return min(samples, NET) if self.scrambles else samples // self.block
-
-    @property
-    def least_known(self) -> int:
-        """Samples of a pixel from which an error is known: two observations."""
-        return 2 if self.scrambles else 2 * self.block
+    def kept(self) -> tuple[Aov, ...]:
+        """AOVs that a picture keeps: those requested, and the objects that share numbers."""
+        return self._in_order(*self.aov, *(["object"] if self.division.is_shared else []))
 
     @property
     def gathered(self) -> tuple[Aov, ...]:
-        """AOVs that a render gathers: the requested ones, and the guides of a denoiser."""
-        wanted = self.aov + (GUIDES if self.denoise != "none" else ())
+        """AOVs that a render gathers: those of its picture, and the guides of a denoiser."""
+        return self._in_order(*self.kept, *(GUIDES if self.denoise != "none" else ()))
+
+    @staticmethod
+    def _in_order(*wanted: str) -> tuple[Aov, ...]:
         return tuple(aov for aov in get_args(Aov) if aov in wanted)
 
     @property

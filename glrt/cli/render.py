@@ -182,7 +182,7 @@ def _render(
         text = f"interrupted after {image.samples} samples, which are saved"
         return fail(text, _signal_code(interruption))
     if limits.error is not None and (estimate is None or estimate > limits.error):
-        counts = image.samples, renderer.settings.least_known
+        counts = image.samples, renderer.settings.division.least_known
         return fail(unreached(arguments.error, limits.error, estimate, *counts), 1)
     return 0
 

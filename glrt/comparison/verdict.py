@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from glrt.comparison.noise import ROUNDING, Pair, Sums, even_weights
+from glrt.comparison.own_numbers import independent
 from glrt.comparison.regions import Array, blocks, edges, whole
 from glrt.comparison.result import (
     CHANNELS,
@@ -23,7 +24,7 @@ from glrt.core.errors import UsageError
 from glrt.error.estimate import sidak_threshold
 from glrt.image.image import Image
 from glrt.plan.methods import traits_of
-from glrt.settings import NET
+from glrt.samplers import NET
 
 Flags = NDArray[np.bool_]
 
@@ -55,6 +56,7 @@ def compare(
         if not LEAST <= value < 1:
             raise UsageError(f"{name} must lie between {LEAST:g} and 1, got {value:g}.")
     _check(image, reference)
+    image, reference = independent(image), independent(reference)
     broken = _is_broken(image) | _is_broken(reference)
     lights = {name: _light(image, name, picture) for name, picture in (groups or {}).items()}
     pair = _pair(image, reference, broken, alike)
@@ -118,7 +120,7 @@ def _pair(image: Image, reference: Image, broken: Flags, alike: bool | None) -> 
 
 
 def _has_net(image: Image) -> bool:
-    return bool(image.recipe and image.recipe.settings.scrambles)
+    return bool(image.recipe and image.recipe.settings.division.scrambles)
 
 
 def _block(image: Image, reference: Image) -> float:

@@ -22,7 +22,7 @@ def judged(
 
     None if that cannot be judged (`is_doubtful`).
     """
-    observations = settings.observations(samples)
+    observations = settings.division.observations(samples)
     if observations < LEAST_OBSERVATIONS:
         return None
     seen = seen_lamps(scene, settings, radiance, stderr)

@@ -81,7 +81,8 @@ def to_channels(film: FilmState, stderr: Array, samples: int, block: int) -> Cha
     """
     is_net = len(film.net) > 0
     is_whole = is_net or film.counts.size > 0 or samples % block == 0
-    observations = _complete(film.counts if film.counts.size else samples, block, is_net)
+    counted = film.counts if film.counts.size else samples
+    observations = _complete(counted, block, len(film.net))
     folded = np.empty(stderr.shape, np.int32)
     for row, kept in enumerate(folded):
         near = _variance(stderr[row], film.observations[row], is_whole)
@@ -90,7 +91,7 @@ def to_channels(film: FilmState, stderr: Array, samples: int, block: int) -> Cha
     channels: Channels = {VARIANCE: folded.view(np.uint32)}
     counts = {DROPPED: film.dropped, MISSING: observations - film.observations}
     channels |= {name: c.astype(np.uint32) for name, c in counts.items() if c.any()}
-    channels |= net_channels.to_channels(film.net, samples)
+    channels |= net_channels.to_channels(film.net, samples, block)
     if film.counts.size:
         channels |= {COUNTS: film.counts.astype(np.uint32), SHARES: film.shares}
     return channels if is_whole else channels | {PART: film.part, BEGUN: film.begun}
@@ -116,13 +117,13 @@ def from_channels(
     is_whole = is_net or counts.size > 0 or samples % block == 0
     none = np.zeros(size, np.float32)
     dropped, missing = (planes.get(name, none).astype(np.float32) for name in (DROPPED, MISSING))
-    complete = _complete(counts if counts.size else samples, block, is_net)
+    complete = _complete(counts if counts.size else samples, block, scrambles)
     observations = np.asarray(complete, np.float32) - missing
     folded, part = _stacked(planes, VARIANCE), _stacked(planes, PART)
     begun = planes.get(BEGUN)
     if is_whole:
         part, begun = np.zeros_like(stderr), none
-    net = net_channels.from_channels(planes, size, samples, scrambles)
+    net = net_channels.from_channels(planes, size, samples, scrambles, block)
     if folded is None or folded.dtype != np.uint32 or part is None or begun is None or net is None:
         return None
     units = (folded >> 1).view(np.int32) ^ -(folded & 1).view(np.int32)
@@ -131,10 +132,10 @@ def from_channels(
     return FilmState(variance, dropped, observations, part, begun, net, counts, shares)
 
 
-def _complete(samples: int | Counts, block: int, is_net: bool) -> int | Counts:
-    """Complete observations of pixels without dropped samples; `block` nets are as many."""
-    if is_net and isinstance(samples, int):
-        return min(samples, block)
+def _complete(samples: int | Counts, block: int, scrambles: int) -> int | Counts:
+    """Complete observations of pixels without dropped samples; with scrambles, those begun."""
+    if scrambles and isinstance(samples, int):
+        return min(-(-samples * scrambles // block), scrambles)
     return samples // block
 
 

@@ -159,9 +159,9 @@ class Image:
             return cls(radiance, stderr, 0)
         settings = recipe.settings
         film = from_channels(
-            channels, stderr, recipe.samples, settings.block, scrambles=settings.scrambles
+            channels, stderr, recipe.samples, settings.block, scrambles=settings.division.scrambles
         )
-        found = aovs.from_channels(channels, recipe.settings.aov)
+        found = aovs.from_channels(channels, settings.kept)
         two = particle_film.from_channels(channels, radiance.shape[:2])
         shown = denoised_channels.from_channels(header, channels, radiance.shape[:2])
         return cls(radiance, stderr, recipe.samples, recipe, film, found, two, shown)

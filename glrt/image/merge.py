@@ -8,7 +8,7 @@ import numpy as np
 
 from glrt.core.errors import UsageError
 from glrt.core.text import counted
-from glrt.image import net_channels
+from glrt.image import net_channels, shared_numbers
 from glrt.image.aovs import AovImage
 from glrt.image.differences import (
     Pair,
@@ -51,7 +51,7 @@ def merged_image(
     So few are held at a time: about the binary logarithm of their number.
     """
     parts = checked(recipes, incomplete)
-    aovs = next(iter(parts.values())).settings.aov
+    aovs = next(iter(parts.values())).settings.kept
     order = sorted(parts, key=lambda name: _number(parts[name]))
     if len(order) == 1:
         return load(order[0])
@@ -66,12 +66,15 @@ def merged_image(
         return merged([partial(film_of, film, name) for name in order])[film]
 
     recipe = _recipe_of([parts[name] for name in order])
-    nets = whole(NETS) if recipe.settings.scrambles else None
+    nets = whole(NETS) if recipe.settings.division.scrambles else None
     image = _image(whole(RADIANCE), recipe, nets)
     if recipe.settings.caustics == "on":
         image = _with_particles(image, whole(PARTICLES), recipe)
     objects = _objects_of(order[0], load(order[0])) if "object" in aovs else AovImage(NOTHING)
     found = {a: objects if a == "object" else _aov_image(a, whole(a)) for a in aovs}
+    if recipe.settings.division.is_shared and image.film_state:
+        shown = shared_numbers.picture(image.radiance, image.film_state.net, found)
+        image = replace(image, **shown._asdict())
     return replace(image, aovs=found)
 
 
@@ -177,7 +180,7 @@ def _with_particles(image: Image, moments: Moments, recipe: Recipe) -> Image:
 
 def _image(film: Moments, recipe: Recipe, nets: Moments | None = None) -> Image:
     """The picture of a film; with nets, their scrambles are its observations."""
-    net = net_of(nets, recipe.settings.scrambles) if nets else net_channels.NO_NET
+    net = net_of(nets, recipe.settings.division.scrambles) if nets else net_channels.NO_NET
     if nets:
         squares, held = net_channels.judged(net)
         film = film._replace(variance=squares, observations=held[..., None])

@@ -1,7 +1,8 @@
 """The means of a picture's nets, by scrambles: channels of EXR files, and the error that they give.
 
-Sample number i of a pixel is of the scramble i % R of R. The count of a scramble's samples follows
-from that of the pixel; where samples were dropped, the file holds how many.
+Sample number i of a pixel is of the scramble i // n % R of R, where n is 1, or the points of a
+block of shared numbers. The count of a scramble's samples follows from that of the pixel; where
+samples were dropped, the file holds how many.
 """
 
 from collections.abc import Mapping
@@ -17,10 +18,14 @@ NO_NET: Array = np.zeros((0, 1, 1, 4), np.float32)
 NET = "film.net"  # film.net.3.R is the red mean of scramble 3
 
 
-def to_channels(net: Array, samples: int) -> Channels:
-    """The means of scrambles, (R, H, W, 4) with their finite samples, as channels of a file."""
+def to_channels(net: Array, samples: int, block: int) -> Channels:
+    """The means of scrambles, (R, H, W, 4) with their finite samples, as channels of a file.
+
+    `block` samples give each scramble as many.
+    """
     channels: Channels = {}
-    for number, (scramble, count) in enumerate(zip(net, _counts(samples, len(net)), strict=True)):
+    counts = _counts(samples, len(net), block)
+    for number, (scramble, count) in enumerate(zip(net, counts, strict=True)):
         channels[f"{NET}.{number}"] = np.ascontiguousarray(scramble[..., :3])
         dropped = count - scramble[..., 3]
         if dropped.any():
@@ -29,7 +34,11 @@ def to_channels(net: Array, samples: int) -> Channels:
 
 
 def from_channels(
-    planes: Mapping[str, NDArray[Any]], size: tuple[int, ...], samples: int, scrambles: int
+    planes: Mapping[str, NDArray[Any]],
+    size: tuple[int, ...],
+    samples: int,
+    scrambles: int,
+    block: int,
 ) -> Array | None:
     """Read what `to_channels` has written, (R, H, W, 4) float32; None if channels are missing.
 
@@ -42,7 +51,7 @@ def from_channels(
         return None
     none = np.zeros(size, np.float32)
     net = np.empty((scrambles, *size, 4), np.float32)
-    for number, count in enumerate(_counts(samples, scrambles)):
+    for number, count in enumerate(_counts(samples, scrambles, block)):
         for color, name in enumerate(names[number]):
             net[number, ..., color] = planes[name]
         net[number, ..., 3] = count - planes.get(f"{NET}.{number}.dropped", none)
@@ -63,6 +72,9 @@ def judged(net: NDArray[Any]) -> tuple[NDArray[np.float64], NDArray[np.float64]]
     return squares * known, held[..., 0]
 
 
-def _counts(samples: int, scrambles: int) -> list[np.float32]:
+def _counts(samples: int, scrambles: int, block: int) -> list[np.float32]:
     """Samples of each scramble, of `samples` per pixel."""
-    return [np.float32(len(range(number, samples, scrambles))) for number in range(scrambles)]
+    run = block // max(scrambles, 1)  # successive samples of one scramble
+    whole, rest = divmod(samples, block)
+    ends = (min(max(rest - run * number, 0), run) for number in range(scrambles))
+    return [np.float32(whole * run + end) for end in ends]

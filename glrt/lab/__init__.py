@@ -23,7 +23,7 @@ Modules, each importing only what stands above it:
 - textures: coordinates far away, bent normals, layers full of holes
 - points: points of a sampler in ever more dimensions
 - sums: accumulation, random numbers, long paths
-- own_counts: pixels that get samples in proportion to their noise
+- samples: pixels that get samples by their noise, or share numbers with neighbours
 - views: positions and fields of view of the camera
 - truths: scenes of some cases whose radiance is known in closed form
 - cases: all cases by name

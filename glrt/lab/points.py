@@ -4,9 +4,9 @@ import numpy as np
 
 from glrt.lab.sweep import Lab, Sweep
 from glrt.rendering.shader_functions import World
-from glrt.settings import BLOCKS
+from glrt.samplers import DIVISIONS
 
-SAMPLES = BLOCKS["sobol64"]
+SAMPLES = DIVISIONS["sobol64"].points
 SUM = f"""
     float sum = 0.0;
     for (int k = 0; k < {SAMPLES}; ++k) {{
@@ -46,7 +46,7 @@ def dimensions(lab: Lab) -> Sweep:
             sums = lab.path(
                 "sum",
                 {"x": rows, "numbers": [count]},
-                World(constants={"BLOCK": BLOCKS[sampler]}),
+                World(constants={"BLOCK": DIVISIONS[sampler].points}),
                 setup=SUM,
                 functions=draw,
             )

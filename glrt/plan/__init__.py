@@ -17,6 +17,7 @@ Modules, each importing only what stands above it:
 - explanation: why each feature is compiled in
 - particle_refusals: why particles cannot be followed in a scene
 - band_refusals: why pictures cannot be divided into bands
+- shared_refusals: why some options do not go with random numbers that pixels share
 - combinations: table of options that work together
 - omissions: light that a method leaves out
 - idle_settings: settings that are given and change nothing

@@ -1,6 +1,6 @@
 """Why a picture with some options cannot be divided into bands for the workers of a cluster."""
 
-NOT_IN_BANDS: dict[str, str] = {  # by name of the option in `Way`
+_WHY = {  # by name of the option in `Way`
     "RESUME": "bands begin without samples",
     "PART": "both divide the picture",
     "MERGED": "a merged picture adds its samples in the order of its parts",
@@ -14,3 +14,4 @@ NOT_IN_BANDS: dict[str, str] = {  # by name of the option in `Way`
     "TIME": "bands would end at different samples",
     "ERROR": "the error is that of the whole picture",
 }
+NOT_IN_BANDS: dict[str, str] = {name: f"{why}: leave out one of them" for name, why in _WHY.items()}

@@ -15,6 +15,7 @@ from glrt.plan.facts import SceneFacts
 from glrt.plan.methods import METHODS, reuses_points, traits_of
 from glrt.plan.particle_refusals import refusal
 from glrt.plan.plan import Layering
+from glrt.plan.shared_refusals import NOT_SHARED
 from glrt.scene.summary import few
 from glrt.settings import TERMS, Settings
 
@@ -32,6 +33,7 @@ class Way(StrEnum):
     FRAGMENT = "the fragment pipeline"
     INDEPENDENT = "the independent sampler"
     NET = "--sampler net"
+    SHARED = "--sampler shared"
     ADAPTIVE = "--adaptive on"
     CLASSIC = "a classic lighting model"
     PROBES = "a method with probes"
@@ -59,6 +61,7 @@ MEANINGS: dict[Way, str] = {
     Way.FRAGMENT: "`--pipeline fragment`, for OpenGL 4.1",
     Way.INDEPENDENT: "`--sampler independent`",
     Way.NET: "`--sampler net`: nets over all samples of a pixel",
+    Way.SHARED: "`--sampler shared`: random numbers that pixels share",
     Way.ADAPTIVE: "`--adaptive on`: samples in proportion to the noise of pixels",
     Way.CLASSIC: "`--method phong`, `blinn`, `whitted`, `whitted_tree`, `cook`",
     Way.PROBES: "`--method ddgi`, `gather`, `resampled`: indirect light from probes",
@@ -91,6 +94,7 @@ _WORKS: dict[Way, tuple[Way, ...]] = {
         Way.TERMS,
     ),
     Way.NET: (Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.LAYERS),
+    Way.SHARED: (Way.RESUME, Way.PART, Way.MERGED),
     Way.ADAPTIVE: (Way.RESUME, Way.INDEPENDENT),
     Way.CLASSIC: (
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.FRAGMENT),
@@ -112,7 +116,7 @@ _WORKS: dict[Way, tuple[Way, ...]] = {
     Way.PILOT: (
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.FRAGMENT),
         *(Way.TERMS, Way.INDEPENDENT, Way.CLASSIC, Way.PROBES, Way.REUSE, Way.HYBRID),
-        *(Way.MARCH, Way.NET, Way.ADAPTIVE),
+        *(Way.MARCH, Way.NET, Way.SHARED, Way.ADAPTIVE),
     ),
     Way.DENOISE: (
         *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
@@ -123,12 +127,12 @@ _WORKS: dict[Way, tuple[Way, ...]] = {
     Way.TIME: (
         *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
         *(Way.CLASSIC, Way.PROBES, Way.REUSE, Way.PARTICLES, Way.PILOT, Way.DENOISE, Way.AUTO),
-        *(Way.TERMS, Way.HYBRID, Way.MARCH, Way.NET, Way.ADAPTIVE),
+        *(Way.TERMS, Way.HYBRID, Way.MARCH, Way.NET, Way.SHARED, Way.ADAPTIVE),
     ),
     Way.ERROR: (
         *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
         *(Way.CLASSIC, Way.PROBES, Way.REUSE, Way.PARTICLES, Way.PILOT, Way.DENOISE, Way.AUTO),
-        *(Way.TERMS, Way.TIME, Way.HYBRID, Way.MARCH, Way.NET, Way.ADAPTIVE),
+        *(Way.TERMS, Way.TIME, Way.HYBRID, Way.MARCH, Way.NET, Way.SHARED, Way.ADAPTIVE),
     ),
     Way.SHUTTER: (
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.TERMS, Way.FRAGMENT),
@@ -212,10 +216,8 @@ _REFUSED |= {
         Way.ADAPTIVE: "pixels of other counts would see other times",
     }.items()
 }
-_REFUSED |= {
-    frozenset({Way.CLUSTER, Way[name]}): f"{why}: leave out one of them"
-    for name, why in NOT_IN_BANDS.items()
-}
+_REFUSED |= {frozenset({Way.CLUSTER, Way[name]}): why for name, why in NOT_IN_BANDS.items()}
+_REFUSED |= {frozenset({Way.SHARED, Way[name]}): why for name, why in NOT_SHARED.items()}
 _UNTRIED = "nobody has tried the two together"
 
 
@@ -284,6 +286,7 @@ def ways_of(settings: Settings, layering: Layering = "none") -> set[Way]:
         Way.LAYERS: layering != "none" and not settings.terms,  # a plan with terms is not relit
         Way.INDEPENDENT: settings.sampler == "independent",
         Way.NET: settings.sampler == "net",
+        Way.SHARED: settings.division.is_shared,
         Way.ADAPTIVE: settings.adaptive == "on",
         Way.CLASSIC: METHODS[settings.method].model != 0,
         Way.PROBES: traits_of(settings).has_probes,

@@ -19,11 +19,9 @@ NO_TREE: dict[str, bool | int] = {"TREE_STACK": 0}  # known once the BVH is buil
 NO_LAYERS = {"LAYERS": 0, "BY_LENGTH": False, "BACKGROUND_LAYER": 0, "SUN_LAYER": 0}
 NO_COUNTS = {"COUNT_RAYS": False, "COUNT_BOUNCES": False, "LIGHT_TERMS": 0}
 PLAIN_RASTER = {"WITHOUT_MARGIN": False}  # draws to the middles of pixels: for experiments
-PLAIN_PROBES: dict[str, bool | int] = {
-    "FROM_PROBES": False,  # paths start at probes
-    "WITHOUT_VISIBILITY": False,  # ignores the visibility of probes: for experiments
-    "WITHOUT_BIAS": False,
-}
+PLAIN_PROBES: dict[str, bool | int] = dict.fromkeys(  # the last two: for experiments
+    ("FROM_PROBES", "WITHOUT_VISIBILITY", "WITHOUT_BIAS"), False
+)
 WITHOUT_OWN_FLAG = ("lambertian", "light", "metal")
 
 
@@ -213,9 +211,7 @@ class Needs:
         lambda it: it.traits.has_probes, "probes", most=False
     )
     some_probes: bool = _row(lambda it: it.takes_turns, "probes in turn", reasons.turns, most=False)
-    final_gather: bool = _row(  # traces paths to one more matte surface before it reads probes
-        lambda it: it.traits.gathers, "final gather", most=False
-    )
+    final_gather: bool = _row(lambda it: it.traits.gathers, "final gather", most=False)
     resamples: bool = _row(  # keeps one of the points that light the first matte surface
         lambda it: it.resamples, "resampling", reasons.resampling, most=False
     )
@@ -258,10 +254,13 @@ class Needs:
         "roulette",
         reasons.roulette,
     )
-    has_net: bool = _row(lambda it: it.settings.scrambles > 0, most=False)  # nets that keep growing
+    has_net: bool = _row(lambda it: it.settings.division.scrambles > 0, most=False)  # kept means
+    is_shared: bool = _row(  # each second block has the same random numbers in all pixels
+        lambda it: it.settings.division.is_shared, "shared numbers", reasons.sampler, most=False
+    )
     adaptive: bool = _row(lambda it: it.adapts, "own counts", reasons.adaptive, most=False)
     block: int = _row(  # samples of a block: 16 or 64 of Sobol's points, 1 of random numbers
-        lambda it: it.settings.block,
+        lambda it: it.settings.division.points,
         "Sobol points",
         reasons.sampler,
         shown=lambda needs: needs.block > 1,

@@ -36,7 +36,7 @@ class Extent(NamedTuple):
     @classmethod
     def of(cls, settings: Settings, layers: int, reservoirs: bool) -> "Extent":
         """The extent of a film for settings."""
-        return cls(*settings.size, settings.block, layers, reservoirs, settings.scrambles)
+        return cls(*settings.size, settings.block, layers, reservoirs, settings.division.scrambles)
 
 
 class Exposure(NamedTuple):

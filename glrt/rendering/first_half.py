@@ -74,7 +74,7 @@ class Halver:
             first = self._first_half(image.samples, settings.block)
             found = by(halves_of(first, image), settings.denoise) if first else None
             image = replace(image, denoising=found)
-        return replace(image, sums=None, aovs={name: image.aovs[name] for name in settings.aov})
+        return replace(image, sums=None, aovs={name: image.aovs[name] for name in settings.kept})
 
     def _first_half(self, samples: int, block: int) -> Image | None:
         """The copy nearest to the middle of `samples`, with enough observations in both halves."""

@@ -14,6 +14,7 @@ from glrt.core.errors import UsageError
 from glrt.core.version import VERSION
 from glrt.denoise.filters import with_filter
 from glrt.gpu.context import Choice, Context, Pipeline, open_context
+from glrt.image import shared_numbers
 from glrt.image.image import Image
 from glrt.image.layer_sums import LayerSums
 from glrt.image.partition import Partition, one_part, wanted_range
@@ -62,10 +63,9 @@ class Renderer(Progress):
         by "groups" lets lamps change without a restart, by "lengths" it lets the bounces be fewer.
         A `part` (k, n) renders the k-th of n parts of the samples, from k = 1. `apart` selects
         meshes with trees of their own: moved without a new tree, but slower to trace. `decisions`
-        are stored in recipes: what chose a setting in the user's place, by its name. With
-        `opens_shutter` the camera's shutter blurs what its animation moves; without, the scene
-        stands still. Raises UsageError for settings that do not go together, ContextError,
-        RenderError, and SceneError for a scene beyond the driver.
+        are stored in recipes: what chose a setting for the user, by its name. `opens_shutter` lets
+        the camera's shutter blur what its animation moves; else the scene stands still. Raises
+        UsageError for settings that do not go together, ContextError, RenderError, SceneError.
         """
         if not isinstance(scene, Scene):
             raise UsageError(f"a Scene is wanted, got {scene!r}: glrt.load reads one")
@@ -224,6 +224,8 @@ class Renderer(Progress):
             self._complete()
             aovs = self._tracer.aov_images()
             mean, noise, state = mixed(self.film, weights)
+            if state and self.settings.division.is_shared:
+                mean, noise = shared_numbers.picture(mean, state.net, aovs)
             waiting = self._tracer.with_particles(mean, noise, weights, waits=True)
         radiance, stderr, films = waiting
         return Image(radiance, stderr, self.samples, self._recipe(weights), state, aovs, films)

@@ -7,7 +7,8 @@ from pydantic import ValidationError
 
 from glrt.core.errors import UsageError
 from glrt.image.partition import Partition, one_part, parse_part, sample_range
-from glrt.settings import BLOCKS, Settings
+from glrt.samplers import DIVISIONS
+from glrt.settings import Settings
 from tests.support.renders import SAMPLERS
 
 
@@ -22,7 +23,7 @@ def ranges(count: int, samples: int, sampler: str) -> list[range]:
 def test_each_sample_is_in_one_part_and_observations_stay_whole(
     data: st.DataObject, samples: int, sampler: str
 ) -> None:
-    block = BLOCKS[sampler]
+    block = DIVISIONS[sampler].block
     observations = -(-samples // block)
     count = data.draw(st.integers(1, min(observations, 200)))
     found = ranges(count, samples, sampler)

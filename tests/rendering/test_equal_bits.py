@@ -92,7 +92,7 @@ def test_the_renders_use_every_feature() -> None:
     assert found["lamps"] == set(SAMPLED)
 
 
-@pytest.mark.slow_cases("by constants", "by nets", "by own counts")
+@pytest.mark.slow_cases("by constants", "by nets", "by own counts", "by shared numbers*")
 @pytest.mark.slow_cases("caustics", "shared places", "hazy", "hazy by *", "drawn", "mapped")
 @pytest.mark.parametrize("name", RENDERS)
 def test_the_kernel_of_a_profile(software: Context, usual: Image, name: str) -> None:
@@ -107,7 +107,8 @@ WAYS = [  # a crowd has too many shapes to be baked; some lack a fragment shader
     *(
         (name, "pipeline", "fragment")
         for name in RENDERS
-        if name not in ("caustics", "shared places", "by nets", "by own counts")
+        if name
+        not in ("caustics", "shared places", "by nets", "by own counts", "by shared numbers")
     ),
 ]
 
@@ -115,7 +116,7 @@ WAYS = [  # a crowd has too many shapes to be baked; some lack a fragment shader
 @pytest.mark.slow_cases(
     *("by constants-tier-baked", "by constants-pipeline-fragment"),
     *("drawn-tier-baked", "drawn-pipeline-fragment"),
-    *("hazy by *", "by nets-tier-baked"),
+    *("hazy by *", "by nets-tier-baked", "by shared numbers-*"),
     *("by own counts-tier-baked", "caustics-tier-baked", "shared places-tier-baked"),
     *("hazy-pipeline-fragment", "mapped-pipeline-fragment"),
 )

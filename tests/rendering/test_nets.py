@@ -17,7 +17,8 @@ from glrt.image.image import Image
 from glrt.image.merge import merge
 from glrt.image.net_channels import from_channels, judged, to_channels
 from glrt.rendering.renderer import Renderer
-from glrt.settings import NET, Settings
+from glrt.samplers import NET
+from glrt.settings import Settings
 from tests.support.builders import MATTE, lamp, quad, room_of_planes, scene_of, sphere
 from tests.support.images import same_bits
 from tests.support.renders import assert_agree, rendering, same
@@ -137,15 +138,15 @@ def test_dropped_samples_come_back_from_channels() -> None:
     net = random.uniform(0, 9, (NET, 4, 5, 4)).astype(np.float32)
     counts = np.array([len(range(k, 45, NET)) for k in range(NET)])
     net[..., 3] = counts[:, None, None] - random.integers(0, 2, (NET, 4, 5))
-    channels = to_channels(net, 45)
+    channels = to_channels(net, 45, NET)
     planes = {name: plane for name, plane in channels.items() if plane.ndim == 2}
     for name in channels.keys() - planes.keys():
         planes |= {f"{name}.{c}": channels[name][..., i] for i, c in enumerate("RGB")}
-    back = from_channels(planes, (4, 5), 45, NET)
+    back = from_channels(planes, (4, 5), 45, NET, NET)
     assert back is not None
     assert same_bits(back, net)
     del planes["film.net.7.B"]
-    assert from_channels(planes, (4, 5), 45, NET) is None
+    assert from_channels(planes, (4, 5), 45, NET, NET) is None
 
 
 @pytest.mark.parametrize("samples", [2, 5, 9, 16, 21])
@@ -165,8 +166,8 @@ def test_the_variance_is_unbiased_for_independent_samples(samples: int) -> None:
 
 def test_observations_are_scrambles() -> None:
     net = Settings(sampler="net")
-    assert [net.observations(samples) for samples in (0, 5, 8, 1024)] == [0, 5, 8, 8]
-    assert Settings(sampler="sobol").observations(40) == 2
+    assert [net.division.observations(samples) for samples in (0, 5, 8, 1024)] == [0, 5, 8, 8]
+    assert Settings(sampler="sobol").division.observations(40) == 2
 
 
 def test_what_nets_do_not_go_with_is_refused_by_name(context: Context) -> None:

@@ -8,7 +8,7 @@ from itertools import combinations
 import numpy as np
 import pytest
 
-from glrt.settings import NET
+from glrt.samplers import NET
 from tests.conftest import CallGlsl
 from tests.shaders.test_sobol import is_net
 from tests.support.alarms import assert_fits, assert_near

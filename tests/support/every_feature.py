@@ -191,4 +191,5 @@ RENDERS: dict[str, tuple[Scene, dict[str, Any]]] = {
     "drawn": (mapped(), {"method": "hybrid", "effects": TRACED}),
     "by own counts": (still_life(), {"method": "mis", "adaptive": "on"}),
     "by nets": (still_life(), {"method": "mis", "sampler": "net"}),
+    "by shared numbers": (still_life(), {"method": "mis", "sampler": "shared"}),
 }

@@ -16,6 +16,7 @@ from tests.support.ways import (
     BASES,
     LAWS,
     OPTIONS,
+    SIZE,
     Options,
     blurred,
     parts,
@@ -144,9 +145,32 @@ def pilot_on_a_cluster() -> None:
         plain([*options, *cluster])
 
 
+def parts_of_shared() -> tuple[Image, Image]:
+    """Parts of whole blocks of 256 samples, merged; and the picture in one piece."""
+    words = ["cornell", *SIZE, "--samples", "768", *OPTIONS[Way.SHARED]]
+    images = [rendered(*words, "--part", f"{k}/3") for k in (1, 2, 3)]
+    whole, found = rendered(*words), merge(images)
+    np.testing.assert_allclose(found.radiance, whole.radiance, rtol=1e-5, atol=1e-6)
+    np.testing.assert_allclose(found.stderr, whole.stderr, rtol=1e-3, atol=1e-6)
+    return found, whole
+
+
+def part_of_shared() -> None:
+    parts_of_shared()
+
+
+def merged_and_shared() -> None:
+    """A merged picture, rendered again."""
+    found, _ = parts_of_shared()
+    found.save("merged.exr")
+    assert same(rendered("merged.exr"), found)
+
+
 SPECIAL: dict[frozenset[Way], Callable[[], None]] = {
     frozenset({Way.PILOT, Way.CLUSTER}): pilot_on_a_cluster,
     frozenset({Way.RESUME, Way.PART}): resume_a_part,
+    frozenset({Way.PART, Way.SHARED}): part_of_shared,
+    frozenset({Way.MERGED, Way.SHARED}): merged_and_shared,
     frozenset({Way.RESUME, Way.REUSE}): resume_reuse,
     frozenset({Way.RESUME, Way.ADAPTIVE}): resume_adaptive,
     frozenset({Way.RESUME, Way.DENOISE}): resume_denoised,

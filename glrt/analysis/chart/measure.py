@@ -121,7 +121,7 @@ def _run(
     left out where that is asked for.
     """
     is_denoised = renderer.settings.denoise != "none"
-    least = max(LEAST_SAMPLES, renderer.settings.least_known)
+    least = max(LEAST_SAMPLES, renderer.settings.division.least_known)
     looks: list[Look] = []
     spent = 0.0
     samples = 1

@@ -217,7 +217,7 @@ def _finding(verdict: Verdict, least_samples: int) -> str:
             "seconds, is too noisy to decide. Ask for a larger error."
         )
     settings, (width, height) = best.settings, best.settings.size
-    needed, known = best.samples_to(verdict.error) or 0, settings.least_known
+    needed, known = best.samples_to(verdict.error) or 0, settings.division.least_known
     samples = max(needed, least_samples, known)
     why = f" ({needed} would do, but {known} are the fewest with a known error)"
     return (

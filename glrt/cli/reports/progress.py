@@ -188,7 +188,9 @@ class Forecast:
     def state(self, renderer: Renderer) -> State:
         """Return the progress after a dispatch; from time to time that estimates the error."""
         start = time.perf_counter()
-        is_first = self._error is None and renderer.samples >= renderer.settings.least_known
+        is_first = (
+            self._error is None and renderer.samples >= renderer.settings.division.least_known
+        )
         if is_first or (renderer.samples and start >= self._due):
             self._error = renderer.plain_image().error
             spent = time.perf_counter() - start

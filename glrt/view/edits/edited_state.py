@@ -43,5 +43,9 @@ class State:
 
 
 def plain(settings: RenderSettings) -> Settings:
-    """Return the settings of a file as the window opens it: a whole picture, as it is rendered."""
-    return settings_for(settings, crop=None, denoise="none", adaptive="off")
+    """Return the settings of a file as the window opens it: a whole picture, as it is rendered.
+
+    Its film shows the samples of each pixel alone, so pixels do not share random numbers.
+    """
+    alone = {"sampler": "sobol"} if getattr(settings, "sampler", "") == "shared" else {}
+    return settings_for(settings, crop=None, denoise="none", adaptive="off", **alone)

@@ -70,7 +70,7 @@ class Session(ShownPicture):
     @property
     def known_from(self) -> int:
         """Number of samples from which on an error is known: those of two observations."""
-        return (self.renderer or self).settings.least_known
+        return (self.renderer or self).settings.division.least_known
 
     @property
     def is_behind(self) -> bool:

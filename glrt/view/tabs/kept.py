@@ -25,6 +25,10 @@ _METHODS = {  # a line on each, in the list of methods
     "march": "steps through smoke",
 }
 SETTINGS = {c.name: c for c in controls_of(Settings, leave_out=("crop", "denoise", "adaptive"))}
+SETTINGS["sampler"] = replace(
+    SETTINGS["sampler"],
+    choices=tuple(it for it in SETTINGS["sampler"].choices if it != "shared"),
+)
 _METHOD = (
     "how light is found: the list has a line on each; `glrt inspect SCENE --error 5%` measures "
     "which is the cheapest to an error, and `glrt chart SCENE` draws the error of all over time"
