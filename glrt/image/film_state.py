@@ -133,9 +133,12 @@ def from_channels(
 
 
 def _complete(samples: int | Counts, block: int, scrambles: int) -> int | Counts:
-    """Complete observations of pixels without dropped samples; with scrambles, those begun."""
+    """Complete observations of pixels without dropped samples; `block` nets are as many.
+
+    Of groups of shared numbers, which have no variance of their own, there are none.
+    """
     if scrambles and isinstance(samples, int):
-        return min(-(-samples * scrambles // block), scrambles)
+        return min(samples, block) if scrambles == block else 0
     return samples // block
 
 

@@ -181,7 +181,7 @@ def _with_particles(image: Image, moments: Moments, recipe: Recipe) -> Image:
 def _image(film: Moments, recipe: Recipe, nets: Moments | None = None) -> Image:
     """The picture of a film; with nets, their scrambles are its observations."""
     net = net_of(nets, recipe.settings.division.scrambles) if nets else net_channels.NO_NET
-    if nets:
+    if nets and not recipe.settings.division.is_shared:
         squares, held = net_channels.judged(net)
         film = film._replace(variance=squares, observations=held[..., None])
     shape = film.mean.shape

@@ -254,7 +254,7 @@ class Needs:
         "roulette",
         reasons.roulette,
     )
-    has_net: bool = _row(lambda it: it.settings.division.scrambles > 0, most=False)  # kept means
+    has_net: bool = _row(lambda it: it.settings.sampler == "net", most=False)  # that keep growing
     is_shared: bool = _row(  # each second block has the same random numbers in all pixels
         lambda it: it.settings.division.is_shared, "shared numbers", reasons.sampler, most=False
     )

@@ -20,6 +20,7 @@ from glrt.settings import Settings
 BAND_PIXELS = 1 << 17  # pixels read at a time: 2 MiB of a texture
 _RESERVOIRS = read_constants(read("probes/reservoir.glsl"))
 NET_COLUMNS = read_constants(read("film/net.glsl"))["NET_COLUMNS"]  # scrambles side by side
+SLOTS = read_constants(read("film/groups.glsl"))["SLOTS"]  # groups that one dispatch adds to
 COLUMNS, ROWS = (_RESERVOIRS[f"{name}_OF_RESERVOIR"] for name in ("COLUMNS", "ROWS"))  # texels
 
 
@@ -31,12 +32,15 @@ class Extent(NamedTuple):
     block: int = 1  # samples per observation
     layers: int = 0
     reservoirs: bool = False  # whether samples keep light points for later ones
-    scrambles: int = 0  # independent nets that the samples fill
+    scrambles: int = 0  # independent nets that the samples fill, or groups of shared numbers
+    points: int = 0  # successive samples of a group of shared numbers; 0 without
 
     @classmethod
     def of(cls, settings: Settings, layers: int, reservoirs: bool) -> "Extent":
         """The extent of a film for settings."""
-        return cls(*settings.size, settings.block, layers, reservoirs, settings.division.scrambles)
+        division = settings.division
+        groups = division.scrambles, division.points if division.is_shared else 0
+        return cls(*settings.size, settings.block, layers, reservoirs, *groups)
 
 
 class Exposure(NamedTuple):
@@ -62,7 +66,8 @@ class Film(PassFilm):
     """Pairs of RGBA32F textures for mean and variance: a dispatch reads one, writes the other.
 
     If an observation takes more than one sample, another pair holds the incomplete observation, or
-    the means of all scrambles of a net.
+    the means of all scrambles of a net. Of groups of shared numbers, a dispatch writes those alone
+    that it adds to: so each has its newest mean in the source or, if it is turned, in the target.
     Layers of light have a pair, with separate sums for two halves of the observations. Reservoirs
     have a pair too (shaders_glsl/probes/reservoir.glsl).
     """
@@ -72,6 +77,7 @@ class Film(PassFilm):
         self.extent = extent
         self.counts: Counts = NO_COUNTS  # samples of each pixel, where they differ
         self.shares: Array = NO_SHARES  # of pixels in further samples, then
+        self._held = self._turned = 0  # bits of groups: those with samples, and those turned
         what = f"a film of {extent.width} x {extent.height} pixels"
         super().__init__(gl, what, _outputs(extent))
 
@@ -101,9 +107,30 @@ class Film(PassFilm):
         held = self.sources.get("reservoirs")
         return {RESERVOIRS: held} if held else {}
 
+    @property
+    def groups(self) -> tuple[int, int]:
+        """Bits of the groups of shared numbers that have samples, and of those that are turned."""
+        return self._held, self._turned
+
     def at_once(self, samples: int) -> int:
-        """How many of `samples` one dispatch can add: 1 if samples read each other's reservoirs."""
+        """How many of `samples` one dispatch can add: 1 if samples read each other's reservoirs.
+
+        Of shared numbers, those of a few groups, wherever the first one is in its block.
+        """
+        if self.extent.points:
+            return min(samples, (SLOTS - 1) * self.extent.points)
         return 1 if self.extent.reservoirs else samples
+
+    def advance(self, samples: int) -> None:
+        """Complete a frame of `samples` per pixel: the target textures become the sources."""
+        first = self.next_sample
+        super().advance(samples)
+        if points := self.extent.points:
+            one, other = self._pairs
+            one["block"], other["block"] = other["block"], one["block"]  # these stay
+            blocks = range(first // points, -(-(first + samples) // points))
+            added = sum({1 << block % self.extent.scrambles for block in blocks})
+            self._held, self._turned = self._held | added, self._turned ^ added
 
     def read(self, rows: slice = slice(None)) -> Exposure:
         """Copy the film or some of its rows into memory; RenderError if it has no samples."""
@@ -150,6 +177,7 @@ class Film(PassFilm):
         }
         if len(film_state.net):
             rows["block"] = _tiled(film_state.net)
+            self._held = sum(1 << k for k, it in enumerate(film_state.net) if it[..., 3].any())
         for name in self.sources.keys() & rows:
             self.sources[name].write(np.ascontiguousarray(rows[name], np.float32))
 
@@ -157,6 +185,7 @@ class Film(PassFilm):
         """Discard all samples; the next dispatch ignores what the textures hold."""
         super().restart(first_sample)
         self.counts, self.shares = NO_COUNTS, NO_SHARES
+        self._held = self._turned = 0
 
     def _check_exposed(self) -> None:
         if not self.samples:
@@ -173,10 +202,21 @@ class Film(PassFilm):
     def _read_net(self, first: int, end: int) -> Array:
         """The means of scrambles, `_tiled` turned round."""
         (width, height), count = self.size, self.extent.scrambles
+        if self.extent.points:
+            return np.array([self._read_group(number, first, end) for number in range(count)])
         tops = range(0, count // NET_COLUMNS * height, height)
         found = [self.read_output("block", up + first, up + end) for up in tops]
         wide = np.array(found, np.float32).reshape(len(tops), end - first, NET_COLUMNS, width, 4)
         return wide.swapaxes(1, 2).reshape(count, end - first, width, 4)
+
+    def _read_group(self, number: int, first: int, end: int) -> Array:
+        """The means of a group of shared numbers, (rows, width, 4)."""
+        width, height = self.size
+        if not self._held >> number & 1:
+            return np.zeros((end - first, width, 4), np.float32)
+        left, top = number % NET_COLUMNS * width, number // NET_COLUMNS * height
+        columns, is_turned = slice(left, left + width), bool(self._turned >> number & 1)
+        return self.read_output("block", top + first, top + end, columns, is_turned)
 
     def _read_layers(self, first: int, end: int) -> Array:
         (width, height), count = self.size, self.extent.layers
@@ -195,7 +235,7 @@ def _tiled(net: Array) -> Array:
 
 def _outputs(extent: Extent) -> dict[str, Size]:
     """The textures of a film and their sizes."""
-    width, height, block, layers, has_reservoirs, scrambles = extent
+    width, height, block, layers, has_reservoirs, scrambles, _ = extent
     sizes = dict.fromkeys(("mean", "variance"), (width, height))
     columns, rows = (NET_COLUMNS, scrambles // NET_COLUMNS) if scrambles else (1, 1)
     sizes |= {"block": (columns * width, rows * height)} if block > 1 else {}

@@ -287,8 +287,9 @@ class Tracer:
         return fits
 
     def _dispatch(self, kernel: AnyKernel, part: DispatchRange) -> None:
-        own = self._own(part)
-        self.device_scene.dispatch(kernel, self.film, self._plan, part, self._tiles, own)
+        film, own = self.film, self._own(part)
+        scene = self.device_scene
+        scene.dispatch(kernel, film, self._plan, part, self._tiles, own, film.groups)
 
     def _own(self, part: DispatchRange) -> dict[str, Resource]:
         drawn = self._raster.drawn(self.film, part.samples)

@@ -1,9 +1,8 @@
 // The means of a pixel by the scrambles of its net: independent of each other, and each over all samples of its own.
-// Sample number i is of the scramble i % BLOCK. Where IS_SHARED, groups of blocks stand for scrambles: block number b is
-// of group b % NET.
+// Sample number i is of the scramble i % BLOCK.
 
-const int NET = IS_SHARED ? 16 : 8;  // scrambles: BLOCK of sampler net
-const int NET_COLUMNS = 4;           // of them side by side in a texture
+const int NET = 8;          // scrambles: BLOCK, where HAS_NET
+const int NET_COLUMNS = 4;  // of them side by side in a texture
 
 vec4 net_means[NET];  // a: finite samples
 
@@ -12,7 +11,7 @@ void add_to_net(inout Pixel pixel, vec3 x, int index) {
     if (!is_finite(x)) return;
     pixel.count += 1.0;
     pixel.mean = next_mean(pixel.mean, x, pixel.count);
-    int own = (IS_SHARED ? index / BLOCK : index) % NET;
+    int own = index % NET;
     vec4 held = net_means[0];
     for (int i = 1; i < NET; i += 1) {
         if (i == own) held = net_means[i];
@@ -24,22 +23,10 @@ void add_to_net(inout Pixel pixel, vec3 x, int index) {
     }
 }
 
-// The mean of all scrambles by their samples.
-vec3 mean_of_net(float count) {
-    vec3 mean = vec3(0.0);
-    for (int i = 0; i < NET; i += 1) {
-        vec3 part = net_means[i].a / max(count, 1.0) * net_means[i].rgb;
-        mean += part;
-    }
-    return mean;
-}
-
 // Takes the variance of an observation, (n - 1) times that of the mean, from the n scrambles that have samples. Their
 // shares w of all samples may differ: sum(w^2 (m - mean)^2) / (1 - sum(w^2)) is the variance of the mean if samples are
-// independent, and for any points if the shares are equal. Where IS_SHARED, the picture that a render goes on from is not
-// this mean, so the scrambles give it.
+// independent, and for any points if the shares are equal.
 void judge_net(inout Pixel pixel) {
-    if (IS_SHARED) pixel.mean = mean_of_net(pixel.count);
     vec3 squares = vec3(0.0);
     float even = 0.0;
     pixel.observations = 0.0;

@@ -31,7 +31,7 @@ Sampler make_sampler(uint seed) {
 Sampler sampler_at(ivec2 pixel, int index, uint seed) {
     if (IS_SHARED && index / BLOCK % 2 == 0) pixel = ivec2(0);
     Sampler rng = make_sampler(pixel_seed(pixel, index, seed));
-    if (HAS_NET && !IS_SHARED) {
+    if (HAS_NET) {
         int number = index / BLOCK;  // a net that is full is followed by another
         rng.block = pixel_seed(pixel, index % BLOCK + number / NET_POINTS * BLOCK, ~seed);
         rng.point = uint(number % NET_POINTS);
@@ -76,7 +76,7 @@ vec2 next_sobol(inout Sampler self) {
     self.dimension += STEP;
     bool last = (self.dimension & 1u) == 0u;  // STEP is odd: true for every second draw
     uint first = last ? self.dimension - STEP : self.dimension;
-    if (HAS_NET && !IS_SHARED) return next_of_net(self, first, last);
+    if (HAS_NET) return next_of_net(self, first, last);
     if (BLOCK > 16) return next_of_64(self, first, last);
     uint index = owen_scramble(self.point, pcg_hash(self.block ^ first));
     uvec2 cell = sobol_cell(index, last, pcg_hash(~self.block ^ self.dimension));
