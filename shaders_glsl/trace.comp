@@ -10,10 +10,10 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(rgba32f) uniform readonly image2D source_mean;      // a: finite samples
 layout(rgba32f) uniform readonly image2D source_variance;  // a: observations
-layout(rgba32f) uniform image2D source_block;              // a: its samples
+layout(rgba32f) uniform readonly image2D source_block;     // a: its samples
 layout(rgba32f) uniform writeonly image2D target_mean;
 layout(rgba32f) uniform writeonly image2D target_variance;
-layout(rgba32f) uniform image2D target_block;
+layout(rgba32f) uniform writeonly image2D target_block;
 uniform sampler2D source_layers;  // a: its samples; OpenGL promises eight images, which the others are
 layout(rgba32f) uniform writeonly image2D target_layers;
 uniform isampler2D raster_hits;  // first surfaces: see raster.frag
@@ -21,14 +21,12 @@ layout(rgba32f) uniform writeonly image2D target_reservoirs;
 
 layout(std430) buffer Lost { uint lost_samples; };
 
-const bool KEEPS_BLOCK = BLOCK > 1 && !HAS_NET && !IS_SHARED;  // incomplete ones
-
 Pixel load_pixel(ivec2 texel) {
     if (frame.is_empty != 0) return empty_pixel();  // the source may hold anything
     vec4 mean = imageLoad(source_mean, texel);
     vec4 variance = imageLoad(source_variance, texel);
     vec4 block = vec4(0.0);
-    if (KEEPS_BLOCK) block = imageLoad(source_block, texel);
+    if (BLOCK > 1 && !HAS_NET) block = imageLoad(source_block, texel);
     return Pixel(mean.rgb, mean.a, variance.rgb, variance.a, block.rgb, block.a);
 }
 
@@ -72,34 +70,6 @@ void store_net(ivec2 texel) {
     for (int i = 0; i < NET; i += 1) imageStore(target_block, scramble_place(texel, i), net_means[i]);
 }
 
-// The means of groups lie in the textures of blocks, GROUP_COLUMNS side by side. Each group has its newest mean in one of
-// the two textures, and a dispatch writes to the other one.
-ivec2 group_place(ivec2 texel, int group) {
-    return imageSize(target_mean) * ivec2(group % GROUP_COLUMNS, group / GROUP_COLUMNS) + texel;
-}
-
-void load_groups(ivec2 texel) {
-    for (int i = 0; i < SLOTS; i += 1) {
-        int group = (frame.first_sample / BLOCK + i) % GROUPS;
-        group_means[i] = vec4(0.0);
-        if ((frame.groups_held >> uint(group) & 1u) == 0u) continue;
-        ivec2 place = group_place(texel, group);
-        bool is_turned = (frame.groups_turned >> uint(group) & 1u) != 0u;
-        group_means[i] = is_turned ? imageLoad(target_block, place) : imageLoad(source_block, place);
-    }
-}
-
-void store_groups(ivec2 texel) {
-    int first = frame.first_sample / BLOCK;
-    int last = (frame.first_sample + frame.sample_count - 1) / BLOCK;
-    for (int i = 0; i <= last - first; i += 1) {
-        int group = (first + i) % GROUPS;
-        ivec2 place = group_place(texel, group);
-        if ((frame.groups_turned >> uint(group) & 1u) != 0u) imageStore(source_block, place, group_means[i]);
-        else imageStore(target_block, place, group_means[i]);
-    }
-}
-
 void main() {
     ivec2 picture = imageSize(target_mean);
     ivec2 corner = tile_corner(picture, frame.first_tile + int(gl_WorkGroupID.x));
@@ -108,7 +78,6 @@ void main() {
     Pixel pixel = load_pixel(texel);
     Layers layers = load_layers(texel);
     if (HAS_NET) load_net(texel);
-    if (IS_SHARED) load_groups(texel);
     if (RASTERS) keep_raster(texelFetch(raster_hits, texel, 0).xy);
     int lost = add_samples(pixel, layers, frame.origin + texel, frame.first_sample);
     if (MAY_LOSE && lost > 0) atomicAdd(lost_samples, uint(lost));
@@ -116,8 +85,7 @@ void main() {
     imageStore(target_mean, texel, vec4(pixel.mean, pixel.count));
     imageStore(target_variance, texel, vec4(pixel.variance, pixel.observations));
     if (HAS_NET) store_net(texel);
-    else if (IS_SHARED) store_groups(texel);
-    else if (KEEPS_BLOCK) imageStore(target_block, texel, vec4(pixel.block, pixel.begun));
+    else if (BLOCK > 1) imageStore(target_block, texel, vec4(pixel.block, pixel.begun));
     store_layers(texel, layers);
     if (!REUSES) return;
     for (int i = 0; i < PARTS_OF_RESERVOIR; i += 1) {

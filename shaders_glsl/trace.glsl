@@ -81,7 +81,6 @@
 #include "integrators/path.glsl"
 #include "film/pixel.glsl"
 #include "film/net.glsl"
-#include "film/groups.glsl"
 #include "film/halves.glsl"
 #include "film/term_pixels.glsl"
 #include "integrators/samples.glsl"

@@ -74,8 +74,6 @@ class Dispatch(NamedTuple):
     first_tile: int = 0
     tile_stride: int = 1  # see shaders_glsl/passes/tiles.glsl
     is_empty: bool = True  # whether the film holds no sample yet: then it is not read
-    groups_held: int = 0  # bits of groups of shared numbers: see shaders_glsl/film/groups.glsl
-    groups_turned: int = 0
 
 
 def pack_camera(camera: Camera, aspect: float) -> dict[str, object]:
@@ -147,8 +145,6 @@ def pack_frame(
         "first_tile": dispatch.first_tile,
         "tile_stride": dispatch.tile_stride,
         "is_empty": int(dispatch.is_empty),
-        "groups_held": dispatch.groups_held,
-        "groups_turned": dispatch.groups_turned,
         "camera_medium": medium_row(plan.facts, media.around_camera),
         "coincident_reach": _coincident_reach(plan.facts),
         **frame_fields(tree, np.array(scene.camera.position, np.float64)),

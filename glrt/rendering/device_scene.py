@@ -169,14 +169,14 @@ class DeviceScene:
         part: DispatchRange,
         tiles: int,
         own: Mapping[str, Resource] = {},
-        groups: tuple[int, int] = (0, 0),
     ) -> None:
         """Run a kernel that adds the samples of `part` to a film; the picture has `tiles` tiles.
 
-        `own` are resources of the kernel in addition to those of the scene; `groups` are of `Film`.
+        `own` are resources of the kernel in addition to those of the scene.
         """
-        place = part.samples, part.first, stride_of(tiles)
-        now = Dispatch(film.next_sample, *place, not film.samples, *groups)
+        now = Dispatch(
+            film.next_sample, part.samples, part.first, stride_of(tiles), not film.samples
+        )
         table = self._textures.get(SKY_TREE)
         density = table.density if isinstance(table, SkyTable) else 0.0
         self._frame.write(pack_frame(plan, self._counts, now, self._tree, density))

@@ -20,7 +20,7 @@ from glrt.settings import Settings
 BAND_PIXELS = 1 << 17  # pixels read at a time: 2 MiB of a texture
 _RESERVOIRS = read_constants(read("probes/reservoir.glsl"))
 NET_COLUMNS = read_constants(read("film/net.glsl"))["NET_COLUMNS"]  # scrambles side by side
-SLOTS = read_constants(read("film/groups.glsl"))["SLOTS"]  # groups that one dispatch adds to
+NOTHING = "nothing"  # the textures of groups of shared numbers that have no samples
 COLUMNS, ROWS = (_RESERVOIRS[f"{name}_OF_RESERVOIR"] for name in ("COLUMNS", "ROWS"))  # texels
 
 
@@ -33,7 +33,7 @@ class Extent(NamedTuple):
     layers: int = 0
     reservoirs: bool = False  # whether samples keep light points for later ones
     scrambles: int = 0  # independent nets that the samples fill, or groups of shared numbers
-    points: int = 0  # successive samples of a group of shared numbers; 0 without
+    points: int = 0  # successive samples of such a group; 0 without
 
     @classmethod
     def of(cls, settings: Settings, layers: int, reservoirs: bool) -> "Extent":
@@ -66,8 +66,8 @@ class Film(PassFilm):
     """Pairs of RGBA32F textures for mean and variance: a dispatch reads one, writes the other.
 
     If an observation takes more than one sample, another pair holds the incomplete observation, or
-    the means of all scrambles of a net. Of groups of shared numbers, a dispatch writes those alone
-    that it adds to: so each has its newest mean in the source or, if it is turned, in the target.
+    the means of all scrambles of a net. Groups of shared numbers have a pair each; a dispatch adds
+    to one of them, and the others stay.
     Layers of light have a pair, with separate sums for two halves of the observations. Reservoirs
     have a pair too (shaders_glsl/probes/reservoir.glsl).
     """
@@ -77,9 +77,12 @@ class Film(PassFilm):
         self.extent = extent
         self.counts: Counts = NO_COUNTS  # samples of each pixel, where they differ
         self.shares: Array = NO_SHARES  # of pixels in further samples, then
-        self._held = self._turned = 0  # bits of groups: those with samples, and those turned
+        self._held: set[int] = set()  # groups with samples
         what = f"a film of {extent.width} x {extent.height} pixels"
         super().__init__(gl, what, _outputs(extent))
+        for pair in self._pairs:
+            if nothing := pair.get(NOTHING):
+                nothing.write(np.zeros((extent.height, extent.width, 4), np.float32))
 
     @property
     def size(self) -> Size:
@@ -107,30 +110,46 @@ class Film(PassFilm):
         held = self.sources.get("reservoirs")
         return {RESERVOIRS: held} if held else {}
 
-    @property
-    def groups(self) -> tuple[int, int]:
-        """Bits of the groups of shared numbers that have samples, and of those that are turned."""
-        return self._held, self._turned
-
     def at_once(self, samples: int) -> int:
-        """How many of `samples` one dispatch can add: 1 if samples read each other's reservoirs.
+        """How many of `samples` one dispatch can add: of shared numbers, those of a block at most.
 
-        Of shared numbers, those of a few groups, wherever the first one is in its block.
+        It is 1 if samples read each other's reservoirs.
         """
-        if self.extent.points:
-            return min(samples, (SLOTS - 1) * self.extent.points)
+        samples = min(samples, self.extent.points or samples)
         return 1 if self.extent.reservoirs else samples
+
+    def next_at_once(self, samples: int) -> int:
+        """How many of `samples` the next dispatch can add, so that it ends with a block at most."""
+        points = self.extent.points
+        return min(samples, points - self.next_sample % points) if points else samples
+
+    def images(self) -> dict[str, moderngl.Texture]:
+        """The textures by the names of the kernel's images: `source_NAME` and `target_NAME`.
+
+        The block is that of the group of the next sample.
+        """
+        found = super().images()
+        if self.extent.points:
+            name = _group(self._group)
+            source = f"source_{name if self._group in self._held else NOTHING}"
+            found |= {"source_block": found[source], "target_block": found[f"target_{name}"]}
+        return found
 
     def advance(self, samples: int) -> None:
         """Complete a frame of `samples` per pixel: the target textures become the sources."""
-        first = self.next_sample
+        group = self._group
         super().advance(samples)
-        if points := self.extent.points:
+        if self.extent.points:
+            self._held.add(group)
             one, other = self._pairs
-            one["block"], other["block"] = other["block"], one["block"]  # these stay
-            blocks = range(first // points, -(-(first + samples) // points))
-            added = sum({1 << block % self.extent.scrambles for block in blocks})
-            self._held, self._turned = self._held | added, self._turned ^ added
+            for name in map(_group, {*range(self.extent.scrambles)} - {group}):
+                one[name], other[name] = other[name], one[name]
+
+    @property
+    def _group(self) -> int:
+        """The group of shared numbers that the next sample belongs to."""
+        points = self.extent.points
+        return self.next_sample // points % self.extent.scrambles if points else 0
 
     def read(self, rows: slice = slice(None)) -> Exposure:
         """Copy the film or some of its rows into memory; RenderError if it has no samples."""
@@ -175,9 +194,11 @@ class Film(PassFilm):
             "variance": np.dstack([film_state.variance, film_state.observations]),
             "block": np.dstack([film_state.part, film_state.begun]),
         }
-        if len(film_state.net):
+        if self.extent.points:
+            rows |= {_group(number): means for number, means in enumerate(film_state.net)}
+            self._held = {k for k, it in enumerate(film_state.net) if it[..., 3].any()}
+        elif len(film_state.net):
             rows["block"] = _tiled(film_state.net)
-            self._held = sum(1 << k for k, it in enumerate(film_state.net) if it[..., 3].any())
         for name in self.sources.keys() & rows:
             self.sources[name].write(np.ascontiguousarray(rows[name], np.float32))
 
@@ -185,7 +206,7 @@ class Film(PassFilm):
         """Discard all samples; the next dispatch ignores what the textures hold."""
         super().restart(first_sample)
         self.counts, self.shares = NO_COUNTS, NO_SHARES
-        self._held = self._turned = 0
+        self._held = set()
 
     def _check_exposed(self) -> None:
         if not self.samples:
@@ -211,12 +232,7 @@ class Film(PassFilm):
 
     def _read_group(self, number: int, first: int, end: int) -> Array:
         """The means of a group of shared numbers, (rows, width, 4)."""
-        width, height = self.size
-        if not self._held >> number & 1:
-            return np.zeros((end - first, width, 4), np.float32)
-        left, top = number % NET_COLUMNS * width, number // NET_COLUMNS * height
-        columns, is_turned = slice(left, left + width), bool(self._turned >> number & 1)
-        return self.read_output("block", top + first, top + end, columns, is_turned)
+        return self.read_output(_group(number) if number in self._held else NOTHING, first, end)
 
     def _read_layers(self, first: int, end: int) -> Array:
         (width, height), count = self.size, self.extent.layers
@@ -235,12 +251,21 @@ def _tiled(net: Array) -> Array:
 
 def _outputs(extent: Extent) -> dict[str, Size]:
     """The textures of a film and their sizes."""
-    width, height, block, layers, has_reservoirs, scrambles, _ = extent
+    width, height, block, layers, has_reservoirs, scrambles, points = extent
     sizes = dict.fromkeys(("mean", "variance"), (width, height))
-    columns, rows = (NET_COLUMNS, scrambles // NET_COLUMNS) if scrambles else (1, 1)
-    sizes |= {"block": (columns * width, rows * height)} if block > 1 else {}
+    if points:
+        names = [*map(_group, range(scrambles)), NOTHING]
+        sizes |= dict.fromkeys(names, (width, height))
+    elif block > 1:
+        columns, rows = (NET_COLUMNS, scrambles // NET_COLUMNS) if scrambles else (1, 1)
+        sizes |= {"block": (columns * width, rows * height)}
     sizes |= {"reservoirs": (COLUMNS * width, ROWS * height)} if has_reservoirs else {}
     return sizes | ({"layers": (layers * width, 2 * height)} if layers else {})
+
+
+def _group(number: int) -> str:
+    """The name of the textures of a group of shared numbers."""
+    return f"group {number}"
 
 
 def standard_error(film: Exposure) -> Array:

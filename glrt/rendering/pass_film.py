@@ -72,20 +72,14 @@ class PassFilm:
         """The textures of the last complete frame."""
         return self._pairs[0]
 
-    def read_output(
-        self, name: str, first: int, end: int, columns: slice = slice(None), turned: bool = False
-    ) -> Array:
-        """Rows `first` to `end` of a source, (rows, width, 4), read in part by a framebuffer.
-
-        With `turned`, of a target.
-        """
-        texture = self._pairs[turned][name]
-        left, right, _ = columns.indices(texture.width)
+    def read_output(self, name: str, first: int, end: int) -> Array:
+        """Rows `first` to `end` of a source, (rows, width, 4), read in part by a framebuffer."""
+        texture = self._pairs[0][name]
         rows = self._gl.framebuffer([texture])
-        part = (left, first, right - left, end - first)
+        part = (0, first, texture.width, end - first)
         data = rows.read(part, components=4, alignment=1, dtype="f4")
         rows.release()
-        return np.frombuffer(data, np.float32).reshape(end - first, right - left, 4)
+        return np.frombuffer(data, np.float32).reshape(end - first, texture.width, 4)
 
     def release(self) -> None:
         """Release the textures."""

@@ -206,7 +206,8 @@ class Tracer:
         while self.film.samples < target:
             self.probes.work_on(self.film.next_sample)
             wanted = self.probes.together(self.film.next_sample, target - self.film.samples)
-            self._at_once(min(self.film.at_once(self.most_samples), wanted))
+            most = min(self.film.at_once(self.most_samples), wanted)
+            self._at_once(self.film.next_at_once(most))
             if self.probes.tracer or self.particles:
                 self.catch_up()  # AOVs see the probes of the picture
 
@@ -222,6 +223,7 @@ class Tracer:
 
     def _work_on_picture(self, remaining: int, planned: float, policy: DispatchPolicy) -> None:
         schedule, start = self.switch.schedule, time.perf_counter()
+        remaining = self.film.next_at_once(remaining)
         part = schedule.next_dispatch(remaining, planned, self.film.samples, policy)
         self._dispatch(self.switch.kernel, part)
         self._context.finish()
@@ -287,9 +289,8 @@ class Tracer:
         return fits
 
     def _dispatch(self, kernel: AnyKernel, part: DispatchRange) -> None:
-        film, own = self.film, self._own(part)
-        scene = self.device_scene
-        scene.dispatch(kernel, film, self._plan, part, self._tiles, own, film.groups)
+        own = self._own(part)
+        self.device_scene.dispatch(kernel, self.film, self._plan, part, self._tiles, own)
 
     def _own(self, part: DispatchRange) -> dict[str, Resource]:
         drawn = self._raster.drawn(self.film, part.samples)

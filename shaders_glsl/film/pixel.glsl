@@ -1,7 +1,8 @@
 // Statistics of a pixel: running means, so that any number of samples keeps its digits.
 //
 // The error is computed over observations, which are independent of each other: one sample each, or
-// BLOCK samples whose points belong together.
+// BLOCK samples whose points belong together. Where IS_SHARED, `block` is the mean of a group of blocks, which goes on
+// from dispatch to dispatch (glrt/rendering/film.py), and errors are computed from all groups.
 
 struct Pixel {
     vec3 mean;           // of the finite samples, radiance
@@ -57,10 +58,10 @@ void add_sample(inout Pixel pixel, vec3 x, int index) {
         pixel.begun += 1.0;
         pixel.block = BLOCK > 1 ? next_mean(pixel.block, x, pixel.begun) : x;
     }
-    if ((index + 1) % BLOCK == 0 && pixel.begun > 0.0) end_observation(pixel);
+    if (!IS_SHARED && (index + 1) % BLOCK == 0 && pixel.begun > 0.0) end_observation(pixel);
 }
 
 // Drops the samples from number `index` to before `end`, which are lost: an observation among them may end.
 void drop_samples(inout Pixel pixel, int index, int end) {
-    if (end / BLOCK > index / BLOCK && pixel.begun > 0.0) end_observation(pixel);
+    if (!IS_SHARED && end / BLOCK > index / BLOCK && pixel.begun > 0.0) end_observation(pixel);
 }

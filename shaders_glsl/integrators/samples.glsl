@@ -36,7 +36,6 @@ int add_samples(inout Pixel pixel, inout Layers layers, ivec2 place, int first) 
         if (loop_was_cut) break;
         end_resampling(path, place, index);
         if (HAS_NET) add_to_net(pixel, value_of(path), index);
-        else if (IS_SHARED) add_to_group(pixel, value_of(path), index / BLOCK - first / BLOCK);
         else add_sample(pixel, value_of(path), index);
         if (LAYERS > 0) add_layers(layers, path, index);
         if (LIGHT_TERMS != 0) add_terms(path, index);

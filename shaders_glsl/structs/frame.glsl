@@ -63,6 +63,4 @@ struct Frame {
     float phong_specular;
     int phong_exponent;
     float march_step;       // length of a step; 0: that of a voxel. Where MARCHES
-    uint groups_held;       // a bit for each group of film/groups.glsl that has samples. Where IS_SHARED
-    uint groups_turned;     // a bit for each group whose newest mean is in the target
 };
