@@ -6,11 +6,13 @@ from glrt.core.errors import SceneError
 from glrt.rendering.renderer import Renderer
 from glrt.scene.camera import Camera
 from glrt.scene.scene import Scene
-from glrt.settings import Cost
+from glrt.settings import Cost, Settings
 from glrt.view.controls import replaced
+from glrt.view.edits.edited_state import plain
 from glrt.view.edits.scene_edits import with_renamed_material
 from glrt.view.state.frame_budget import LEAST, FrameBudget
 from glrt.view.state.session import Session
+from glrt.view.tabs.kept import SETTINGS
 from tests.support.builders import MATTE, lamp, sphere
 from tests.support.mixed_scene import everything
 from tests.support.sessions import start
@@ -29,6 +31,13 @@ def test_the_first_frames_announce_the_kernel(session: Session) -> None:
     start(session)
     assert session.busy == ""
     assert session.samples > 0
+
+
+def test_the_film_of_the_window_has_the_samples_of_each_pixel_alone() -> None:
+    """So a picture whose pixels share random numbers opens with others, and the list lacks them."""
+    assert plain(Settings(sampler="shared")).sampler == "sobol"
+    assert plain(Settings(sampler="net")).sampler == "net"
+    assert SETTINGS["sampler"].choices == ("sobol", "sobol64", "net", "independent")
 
 
 def test_edits_of_a_frame_cost_one_restart(session: Session) -> None:
