@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 NET = 8  # scrambles of sampler net: that of shaders_glsl/film/net.glsl
-GROUPS = 16  # of sampler shared, whose blocks take turns; as there
+GROUPS = 16  # of sampler shared, whose blocks take turns
 
 
 @dataclass(frozen=True)

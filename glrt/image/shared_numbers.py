@@ -19,8 +19,9 @@ from numpy.typing import NDArray
 from glrt.error.estimate import DARK
 from glrt.image.aovs import AovImages
 from glrt.image.net_channels import judged
+from glrt.samplers import GROUPS
 
-PAIRS = 8  # of C and P
+PAIRS = GROUPS // 2  # of C and P
 TILE = 32  # pixels a side of a region
 BOXES = (0, 1, 3, 8)  # radii of the boxes
 RIDGE = 1e-3  # of the diagonal: regions without noise have a solution, too

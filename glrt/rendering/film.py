@@ -20,7 +20,6 @@ from glrt.settings import Settings
 BAND_PIXELS = 1 << 17  # pixels read at a time: 2 MiB of a texture
 _RESERVOIRS = read_constants(read("probes/reservoir.glsl"))
 NET_COLUMNS = read_constants(read("film/net.glsl"))["NET_COLUMNS"]  # scrambles side by side
-NOTHING = "nothing"  # the textures of groups of shared numbers that have no samples
 COLUMNS, ROWS = (_RESERVOIRS[f"{name}_OF_RESERVOIR"] for name in ("COLUMNS", "ROWS"))  # texels
 
 
@@ -66,8 +65,8 @@ class Film(PassFilm):
     """Pairs of RGBA32F textures for mean and variance: a dispatch reads one, writes the other.
 
     If an observation takes more than one sample, another pair holds the incomplete observation, or
-    the means of all scrambles of a net. Groups of shared numbers have a pair each; a dispatch adds
-    to one of them, and the others stay.
+    the means of all scrambles of a net. Groups of shared numbers have a texture each. A dispatch
+    adds to one of them: it writes a spare one, which takes the place of the group's.
     Layers of light have a pair, with separate sums for two halves of the observations. Reservoirs
     have a pair too (shaders_glsl/probes/reservoir.glsl).
     """
@@ -79,10 +78,10 @@ class Film(PassFilm):
         self.shares: Array = NO_SHARES  # of pixels in further samples, then
         self._held: set[int] = set()  # groups with samples
         what = f"a film of {extent.width} x {extent.height} pixels"
+        self._groups: list[moderngl.Texture] = []
         super().__init__(gl, what, _outputs(extent))
-        for pair in self._pairs:
-            if nothing := pair.get(NOTHING):
-                nothing.write(np.zeros((extent.height, extent.width, 4), np.float32))
+        if extent.points:
+            self._add_groups()
 
     @property
     def size(self) -> Size:
@@ -129,10 +128,8 @@ class Film(PassFilm):
         The block is that of the group of the next sample.
         """
         found = super().images()
-        if self.extent.points:
-            name = _group(self._group)
-            source = f"source_{name if self._group in self._held else NOTHING}"
-            found |= {"source_block": found[source], "target_block": found[f"target_{name}"]}
+        if self._group in self._held:
+            found["source_block"] = self._groups[self._group]
         return found
 
     def advance(self, samples: int) -> None:
@@ -141,9 +138,26 @@ class Film(PassFilm):
         super().advance(samples)
         if self.extent.points:
             self._held.add(group)
-            one, other = self._pairs
-            for name in map(_group, {*range(self.extent.scrambles)} - {group}):
-                one[name], other[name] = other[name], one[name]
+            (written, zeros), spare = (it["block"] for it in self._pairs), self._groups[group]
+            self._pairs[0]["block"], self._pairs[1]["block"] = zeros, spare
+            self._groups[group] = written
+
+    def release(self) -> None:
+        """Release the textures."""
+        super().release()
+        for texture in self._groups:
+            texture.release()
+
+    def _add_groups(self) -> None:
+        """Allocate the groups; the source of the block is of those without samples."""
+        width, height = self.size
+        self.sources["block"].write(np.zeros((height, width, 4), np.float32))
+        try:
+            for _ in range(self.extent.scrambles):
+                self._groups.append(self._texture(self.size))
+        except RenderError:
+            self.release()
+            raise
 
     @property
     def _group(self) -> int:
@@ -195,8 +209,10 @@ class Film(PassFilm):
             "block": np.dstack([film_state.part, film_state.begun]),
         }
         if self.extent.points:
-            rows |= {_group(number): means for number, means in enumerate(film_state.net)}
+            for texture, means in zip(self._groups, film_state.net, strict=True):
+                texture.write(np.ascontiguousarray(means))
             self._held = {k for k, it in enumerate(film_state.net) if it[..., 3].any()}
+            del rows["block"]
         elif len(film_state.net):
             rows["block"] = _tiled(film_state.net)
         for name in self.sources.keys() & rows:
@@ -232,7 +248,8 @@ class Film(PassFilm):
 
     def _read_group(self, number: int, first: int, end: int) -> Array:
         """The means of a group of shared numbers, (rows, width, 4)."""
-        return self.read_output(_group(number) if number in self._held else NOTHING, first, end)
+        held = self._groups[number] if number in self._held else self.sources["block"]
+        return self._rows(held, first, end)
 
     def _read_layers(self, first: int, end: int) -> Array:
         (width, height), count = self.size, self.extent.layers
@@ -253,19 +270,10 @@ def _outputs(extent: Extent) -> dict[str, Size]:
     """The textures of a film and their sizes."""
     width, height, block, layers, has_reservoirs, scrambles, points = extent
     sizes = dict.fromkeys(("mean", "variance"), (width, height))
-    if points:
-        names = [*map(_group, range(scrambles)), NOTHING]
-        sizes |= dict.fromkeys(names, (width, height))
-    elif block > 1:
-        columns, rows = (NET_COLUMNS, scrambles // NET_COLUMNS) if scrambles else (1, 1)
-        sizes |= {"block": (columns * width, rows * height)}
+    columns, rows = (NET_COLUMNS, scrambles // NET_COLUMNS) if scrambles and not points else (1, 1)
+    sizes |= {"block": (columns * width, rows * height)} if block > 1 else {}
     sizes |= {"reservoirs": (COLUMNS * width, ROWS * height)} if has_reservoirs else {}
     return sizes | ({"layers": (layers * width, 2 * height)} if layers else {})
-
-
-def _group(number: int) -> str:
-    """The name of the textures of a group of shared numbers."""
-    return f"group {number}"
 
 
 def standard_error(film: Exposure) -> Array:

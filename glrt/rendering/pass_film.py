@@ -74,7 +74,9 @@ class PassFilm:
 
     def read_output(self, name: str, first: int, end: int) -> Array:
         """Rows `first` to `end` of a source, (rows, width, 4), read in part by a framebuffer."""
-        texture = self._pairs[0][name]
+        return self._rows(self._pairs[0][name], first, end)
+
+    def _rows(self, texture: moderngl.Texture, first: int, end: int) -> Array:
         rows = self._gl.framebuffer([texture])
         part = (0, first, texture.width, end - first)
         data = rows.read(part, components=4, alignment=1, dtype="f4")
