@@ -3,8 +3,10 @@
 For each scene, pictures by both samplers are rendered in turns. The columns are: the squared error
 of `sobol` over that of `shared` at equal samples, from the spread over seeds; the time of `sobol`
 over that of `shared`, which includes finding its weights (medians); the product of both, which is
-the gain in equal time; and the error that pictures by `shared` estimate, over the true one, with
-the quantiles of 5 and 95 % over seeds. `-o FILE.jpg` writes pictures of the first scene.
+the gain in equal time; the error that pictures by `shared` estimate, over the true one, with the
+quantiles of 5 and 95 % over seeds; and how far the means of both over all seeds are apart, in
+standard errors, RMS over blocks of 8 x 8 pixels: 1 for equal means. `-o FILE.jpg` writes pictures
+of the first scene.
 """
 
 import argparse
@@ -21,7 +23,7 @@ from bench.nets import scene_of
 from bench.program import add_rounds, at_least, exit_code_of, machine, parser_of
 from bench.terms import titled, write_sheet
 from glrt.core.files import check_writable, write_whole
-from glrt.error.estimate import DARK
+from glrt.error.estimate import DARK, block_means
 from glrt.gpu.context import Context, open_context
 from glrt.image.image import Image
 from glrt.rendering.renderer import Renderer
@@ -30,6 +32,7 @@ from glrt.settings import Sampler
 
 SCENES = ("cornell", "sky", "metals", "weekend", "methods/diffuse", "mesh")
 QUANTILES = (0.05, 0.95)
+BLOCK = 8  # pixels a side, of means
 SAMPLERS: tuple[Sampler, ...] = ("sobol", "shared")
 
 Array = NDArray[np.float64]
@@ -42,11 +45,13 @@ class Gain(NamedTuple):
     speed: float  # time of sobol over that of shared
     told: float  # estimated over true error of shared, root mean square over seeds
     ends: tuple[float, float]  # QUANTILES of that over seeds
+    apart: float  # RMS over blocks of how far the means are apart, in standard errors
 
     def __str__(self) -> str:
         """Columns of the table."""
         figures = f"{self.variance:.2f} | {self.speed:.2f} | {self.variance * self.speed:.2f}"
-        return f"{figures} | {self.told:.2f} ({self.ends[0]:.2f} to {self.ends[1]:.2f})"
+        told = f"{self.told:.2f} ({self.ends[0]:.2f} to {self.ends[1]:.2f})"
+        return f"{figures} | {told} | {self.apart:.2f}"
 
 
 def measure(
@@ -82,7 +87,19 @@ def judged(plain: list[Image], shared: list[Image], speed: float) -> Gain:
     base, true = (float((it.var(axis=0, ddof=1) / level).mean()) for it in means)
     told = np.array([(np.square(it.stderr, dtype=float) / level).mean() for it in shared])
     low, high = np.sqrt(np.quantile(told, QUANTILES) / true)
-    return Gain(base / true, speed, float(np.sqrt(told.mean() / true)), (float(low), float(high)))
+    ends = float(low), float(high)
+    return Gain(base / true, speed, float(np.sqrt(told.mean() / true)), ends, _apart(*means))
+
+
+def _apart(plain: Array, shared: Array) -> float:
+    """How far the means over seeds are apart, (seeds, H, W, 3) each; 0 for small pictures."""
+    if min(plain.shape[1:3]) < BLOCK:
+        return 0.0
+    blocks = [np.array([block_means(it, BLOCK) for it in some]) for some in (plain, shared)]
+    error = sum(it.var(axis=0, ddof=1) / len(it) for it in blocks)
+    apart = blocks[1].mean(axis=0) - blocks[0].mean(axis=0)
+    scores = np.square(apart) / np.where(error > 0, error, np.inf)
+    return float(np.sqrt(scores[error > 0].mean()))
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -100,8 +117,8 @@ def _run(parsed: argparse.Namespace) -> None:
     if parsed.file:
         check_writable(parsed.file)
     context = open_context()
-    print("| scene | equal samples | speed | equal time | estimated over true error |")
-    print("|---|---|---|---|---|")
+    print("| scene | equal samples | speed | equal time | estimated over true error | means |")
+    print("|---|---|---|---|---|---|")
     for number, name in enumerate(parsed.scenes):
         gain, pictures = measure(context, name, parsed)
         print(f"| `{name}` | {gain} |", flush=True)

@@ -19,7 +19,23 @@ def test_gains_are_ratios_of_squared_errors() -> None:
     gain = judged(plain, shared, speed=0.5)
     assert gain.variance == pytest.approx(4)
     assert gain.told == pytest.approx(1.5 / np.sqrt(2))
-    assert str(gain) == "4.00 | 0.50 | 2.00 | 1.06 (1.06 to 1.06)"
+    assert str(gain) == "4.00 | 0.50 | 2.00 | 1.06 (1.06 to 1.06) | 0.00"
+
+
+def test_means_that_differ_are_found() -> None:
+    """By 3 standard errors in all blocks; without a difference by about 1."""
+    rng = np.random.default_rng(1)
+    rows = rng.normal(size=(2, 200, 16, 16, 1)) + np.zeros(3)
+
+    def found(shift: float) -> float:
+        plain, shared = (
+            [Image(*np.array([it, it], np.float32), 256) for it in some]
+            for some in (rows[0], rows[1] + shift)
+        )
+        return judged(plain, shared, speed=1.0).apart
+
+    assert found(0.0) < 2
+    assert found(3 * np.sqrt(2 / 200) / 8) == pytest.approx(3, abs=1.5)
 
 
 def test_a_scene_is_measured(context: Context) -> None:
