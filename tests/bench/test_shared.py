@@ -29,7 +29,7 @@ def test_means_that_differ_are_found() -> None:
 
     def found(shift: float) -> float:
         plain, shared = (
-            [Image(*np.array([it, it], np.float32), 256) for it in some]
+            [Image(it, it, 256) for it in some.astype(np.float32)]
             for some in (rows[0], rows[1] + shift)
         )
         return judged(plain, shared, speed=1.0).apart
