@@ -4,6 +4,7 @@ from dataclasses import replace
 
 from glrt.core.errors import UsageError
 from glrt.image.image import Image
+from glrt.image.particle_film import observations_of, summed
 from glrt.image.shared_numbers import own_part
 
 
@@ -19,5 +20,9 @@ def independent(image: Image) -> Image:
             "pixels of a picture by --sampler shared err alike: glrt compare needs its .exr as "
             "glrt wrote it, which has the means of all groups of samples."
         )
-    own = own_part(image.film_state.net)
-    return replace(image, **own._asdict(), samples=image.samples // 2)
+    radiance, stderr = own_part(image.film_state.net)
+    if image.particles:  # which never share numbers
+        film = image.particles._replace(camera=radiance)
+        observations = observations_of(image.samples, image.recipe.settings.division.points)
+        radiance, stderr = summed(film, stderr, observations)
+    return replace(image, radiance=radiance, stderr=stderr, samples=image.samples // 2)

@@ -22,7 +22,7 @@ def moments_of(image: Image, film: str) -> Moments | None:
     if film in aovs:
         return _of_aov(aovs[film])
     if film == PARTICLES and image.particles and image.recipe:
-        count = observations_of(image.samples, image.recipe.settings.block)
+        count = observations_of(image.samples, image.recipe.settings.division.points)
         return _of_particles(image.particles, count)
     if image.film_state is None:
         return None

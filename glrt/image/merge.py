@@ -68,13 +68,13 @@ def merged_image(
     recipe = _recipe_of([parts[name] for name in order])
     nets = whole(NETS) if recipe.settings.division.scrambles else None
     image = _image(whole(RADIANCE), recipe, nets)
-    if recipe.settings.caustics == "on":
-        image = _with_particles(image, whole(PARTICLES), recipe)
     objects = _objects_of(order[0], load(order[0])) if "object" in aovs else AovImage(NOTHING)
     found = {a: objects if a == "object" else _aov_image(a, whole(a)) for a in aovs}
     if recipe.settings.division.is_shared and image.film_state:
         shown = shared_numbers.picture(image.radiance, image.film_state.net, found)
         image = replace(image, **shown._asdict())
+    if recipe.settings.caustics == "on":
+        image = _with_particles(image, whole(PARTICLES), recipe)
     return replace(image, aovs=found)
 
 
@@ -173,7 +173,7 @@ def _with_particles(image: Image, moments: Moments, recipe: Recipe) -> Image:
     """The picture of the camera's film, plus the light of particles."""
     mean, variance = moments.mean.astype(np.float32), moments.variance.astype(np.float32)
     film = ParticleFilm(image.radiance, mean, variance)
-    observations = observations_of(recipe.samples, recipe.settings.block)
+    observations = observations_of(recipe.samples, recipe.settings.division.points)
     radiance, stderr = summed(film, image.stderr, observations)
     return replace(image, radiance=radiance, stderr=stderr, particles=film)
 

@@ -17,7 +17,6 @@ NOT_SHARED: dict[str, str] = {  # by name of the option in `Way`
     "REUSE": _PROVEN,
     "HYBRID": _PROVEN,
     "MARCH": _PROVEN,
-    "PARTICLES": "particles are not averaged with neighbours: use --sampler sobol",
     "DENOISE": "a denoiser takes errors that neighbours share for detail",
     "AUTO": "it chooses by the error of plain pictures: name a method",
     "SHUTTER": "all pixels would see the same times",

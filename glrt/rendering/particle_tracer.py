@@ -65,7 +65,7 @@ class ParticleTracer:
         Raises RenderError if the driver has no room for them.
         """
         self._context, self._plan, self._scene = context, plan, scene
-        self._block, size = plan.settings.block, plan.settings.size
+        self._block, size = plan.settings.division.points, plan.settings.size
         self._groups, self._tiles = particle_groups(plan.settings), tile_count(*size)
         self._rounds, most = _limits(context, plan)
         rounds = iterations_per_sample(plan) + rounds_for_particles(plan)
@@ -209,5 +209,5 @@ def _limits(context: Context, plan: Plan) -> tuple[int | None, int]:
     """Loop rounds per dispatch (None: no limit), and the most particles per lane."""
     iterations = iterations_per_sample(plan) + rounds_for_particles(plan)
     rounds = usable_rounds(context)
-    block = plan.settings.block
+    block = plan.settings.division.points
     return rounds, block if rounds is None else max(1, min(block, rounds // iterations))

@@ -41,7 +41,9 @@ BOUNCES = RADIANCE._replace(
     constants={"COUNT_BOUNCES": True, "LAYERS": 0, **NO_REUSE},
 )
 PARTICLES = RenderPass({"compute": ("particles.comp",)}, ("mean", "variance"))
-SPLATS = RenderPass({"compute": ("splats.comp",)}, PARTICLES.outputs, {"BLOCK": 1})
+SPLATS = RenderPass(
+    {"compute": ("splats.comp",)}, PARTICLES.outputs, {"BLOCK": 1, "IS_SHARED": False}
+)
 PROBE_RAYS = RenderPass({"compute": ("probe_rays.comp",)}, ("rays",), FROM_PROBES)
 PROBE_LIGHT = RenderPass({"compute": ("probe_light.comp",)}, ())
 PROBE_DISTANCES = RenderPass({"compute": ("probe_distances.comp",)}, ())

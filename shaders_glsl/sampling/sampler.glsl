@@ -5,7 +5,7 @@
 // The numbers are independent or, where BLOCK is above 1, points of a net of BLOCK points (16:
 // sampling/sobol.glsl, 64: sampling/sobol64.glsl). Each block of BLOCK samples has its own scramble.
 // Where HAS_NET, samples are dealt out in turn to BLOCK nets that keep growing (sampling/net.glsl). Where IS_SHARED, each
-// even block has the same numbers in all pixels.
+// even block has the same numbers in all pixels. Particles, whose places are below 0, always have their own.
 
 const uint STEP = 0x9E3779B9u;  // from one dimension to the next
 
@@ -29,7 +29,7 @@ Sampler make_sampler(uint seed) {
 
 // The sampler of the sample `index`, from 0, of a pixel.
 Sampler sampler_at(ivec2 pixel, int index, uint seed) {
-    if (IS_SHARED && index / BLOCK % 2 == 0) pixel = ivec2(0);
+    if (IS_SHARED && pixel.y >= 0 && index / BLOCK % 2 == 0) pixel = ivec2(0);
     Sampler rng = make_sampler(pixel_seed(pixel, index, seed));
     if (HAS_NET) {
         int number = index / BLOCK;  // a net that is full is followed by another

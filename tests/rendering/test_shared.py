@@ -19,7 +19,9 @@ from glrt.rendering.renderer import Renderer
 from glrt.samplers import GROUPS
 from glrt.settings import Settings
 from tests.rendering.test_nets import ROOM
+from tests.support.builders import sphere
 from tests.support.images import same_bits
+from tests.support.particle_rooms import room
 from tests.support.renders import assert_agree, same
 
 SIZE: dict[str, Any] = {"width": 40, "height": 36, "sampler": "shared", "bounces": 3}
@@ -76,6 +78,40 @@ def taken_part(context: Context, part: tuple[int, int]) -> Image:
     image = renderer.render().image()
     renderer.release()
     return image
+
+
+@pytest.mark.slow
+def test_particles_are_a_film_of_their_own(context: Context, tmp_path: Path) -> None:
+    """They go on, are merged, and show the light that paths show."""
+    scene = room(sphere([0, -0.5, -1], 0.3, "glass"), sphere([0.4, 0.5, -1], 0.1, "dim"))
+    ways: dict[str, Any] = {**SIZE, "caustics": "on", "width": 16, "height": 16}
+
+    def rendered(samples: int, **more: Any) -> Image:
+        own = {**ways, "samples": 600, **more}
+        renderer = Renderer(scene, context=context, tier="baked", **own)
+        image = renderer.render(samples).image()
+        renderer.release()
+        return image
+
+    whole = rendered(600)
+    plain = rendered(600, sampler="sobol")
+    assert whole.particles is not None
+    assert plain.particles is not None
+    assert whole.particles.mean.any()
+    assert same_bits(whole.particles.mean, plain.particles.mean)
+    assert same_bits(whole.particles.variance, plain.particles.variance)
+    rendered(300).save(tmp_path / "first.exr")
+    renderer = Renderer(scene, context=context, tier="baked", **ways)
+    found = renderer.resume(Image.load(tmp_path / "first.exr")).render(600).image()
+    renderer.release()
+    assert same(found, whole)
+    parts = [rendered(n, part=(k, 3)) for k, n in ((1, 256), (2, 256), (3, 88))]
+    together = merge(parts)
+    np.testing.assert_allclose(together.radiance, whole.radiance, rtol=1e-5, atol=1e-6)
+    np.testing.assert_allclose(together.stderr, whole.stderr, rtol=1e-3, atol=1e-6)
+    other = rendered(1024, seed=7, sampler="sobol")
+    assert_agree(rendered(1024), other, within=0.07)
+    assert compare(whole, other).verdict != "different"
 
 
 def test_even_groups_have_the_same_numbers_in_all_pixels(picture: Image) -> None:

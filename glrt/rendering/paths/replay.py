@@ -83,8 +83,8 @@ class PathReplay:
         """
         if self._particles is None:
             return None
-        settings = self._plan.settings
-        samples = settings.block * observations_of(settings.samples, settings.block)
+        samples, points = self._plan.settings.samples, self._plan.settings.division.points
+        samples = points * observations_of(samples, points)
         return arrived([*self.arriving(pixel, samples)])
 
     def arriving(self, pixel: Pixel, samples: int) -> Iterator[Array]:
