@@ -14,7 +14,7 @@ import sys
 import time
 from functools import partial
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,7 +28,7 @@ from glrt.gpu.context import Context, open_context
 from glrt.image.image import Image
 from glrt.rendering.renderer import Renderer
 from glrt.samplers import DIVISIONS
-from glrt.settings import Sampler
+from glrt.settings import Caustics, Sampler
 
 SCENES = ("cornell", "sky", "metals", "weekend", "methods/diffuse", "mesh")
 QUANTILES = (0.05, 0.95)
@@ -58,7 +58,7 @@ def measure(
     context: Context, name: str, asked: argparse.Namespace
 ) -> tuple[Gain, list[NDArray[np.float32]]]:
     """The figures of a scene, and its pictures of the first seed."""
-    size: dict[str, Any] = {"width": asked.size, "height": asked.size, "caustics": "off"}
+    size: dict[str, Any] = {"width": asked.size, "height": asked.size, "caustics": asked.caustics}
     scene = scene_of(name)
     opened = {
         it: Renderer(scene, context=context, tier="baked", sampler=it, **size) for it in SAMPLERS
@@ -109,6 +109,8 @@ def main(arguments: list[str] | None = None) -> int:
     add_rounds(parser, size=96, rounds=16)
     least = DIVISIONS["shared"].block
     parser.add_argument("--samples", type=at_least(least), default=least, help=f"default: {least}")
+    particles = "particles from lamps (default: off)"
+    parser.add_argument("--caustics", choices=get_args(Caustics), default="off", help=particles)
     parser.add_argument("-o", dest="file", type=Path, metavar="FILE.jpg", help="picture to write")
     return exit_code_of(lambda: _run(parser.parse_args(arguments)))
 

@@ -40,7 +40,7 @@ def test_means_that_differ_are_found() -> None:
 
 def test_a_scene_is_measured(context: Context) -> None:
     parsed = parser_of("shared", None).parse_args([])
-    parsed.size, parsed.rounds, parsed.samples = 8, 2, 256
+    parsed.size, parsed.rounds, parsed.samples, parsed.caustics = 8, 2, 256, "off"
     gain, pictures = measure(context, "sky", parsed)
     assert isinstance(gain, Gain)
     assert gain.variance > 0
