@@ -23,7 +23,7 @@ def clock(monkeypatch: pytest.MonkeyPatch) -> dict[str, float]:
 
 def renderer(samples: int, error: float) -> Any:
     image = SimpleNamespace(error=error)
-    settings = SimpleNamespace(least_known=32)
+    settings = SimpleNamespace(division=SimpleNamespace(least_known=32))
     work = float(samples)
     return SimpleNamespace(samples=samples, work=work, settings=settings, plain_image=lambda: image)
 
@@ -92,7 +92,10 @@ def test_looks_at_the_error_take_a_twentieth_of_the_time(clock: dict[str, float]
         return SimpleNamespace(error=0.2)
 
     large: Any = SimpleNamespace(
-        samples=1, work=1.0, plain_image=plain_image, settings=SimpleNamespace(least_known=32)
+        samples=1,
+        work=1.0,
+        plain_image=plain_image,
+        settings=SimpleNamespace(division=SimpleNamespace(least_known=32)),
     )
     forecast = Forecast(Limits(400))
     for _ in range(1000):
