@@ -33,6 +33,7 @@ from glrt.settings import Caustics, Sampler
 SCENES = ("cornell", "sky", "metals", "weekend", "methods/diffuse", "mesh")
 QUANTILES = (0.05, 0.95)
 BLOCK = 8  # pixels a side, of means
+OTHER_SEEDS = 1 << 20  # samplers must not share numbers
 SAMPLERS: tuple[Sampler, ...] = ("sobol", "shared")
 
 Array = NDArray[np.float64]
@@ -67,8 +68,8 @@ def measure(
     seconds: dict[str, list[float]] = {it: [] for it in SAMPLERS}
     try:
         for seed in range(asked.rounds):
-            for sampler, renderer in opened.items():
-                renderer.update(seed=seed)
+            for number, (sampler, renderer) in enumerate(opened.items()):
+                renderer.update(seed=seed + number * OTHER_SEEDS)
                 start = time.perf_counter()
                 images[sampler].append(renderer.render(asked.samples).image())
                 seconds[sampler].append(time.perf_counter() - start)
