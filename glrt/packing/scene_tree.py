@@ -4,8 +4,7 @@ docs/extending.md explains how to add a kind.
 """
 
 import math
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from functools import partial
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -121,22 +120,20 @@ def tree_of(facts: SceneFacts, before: SceneTree | None = None) -> SceneTree | N
     if not boxes and not facts.shapes[MESH]:
         return None
     meshes = facts.scene.meshes
-    joined = [mesh for number, mesh in enumerate(meshes) if number not in facts.instances]
     placed = [meshes[number] for number in facts.instances]
     own = own_trees(placed, before.own if before else None)
     check_numbers(len(placed), facts.instance_bits, len(facts.scene.objects))
     instances = instances_of(meshes, facts.instances, own)
     fixed = [instances.boxes] if placed else []
     corners = [(some.lower, some.upper) for some in (*boxes, *fixed)]
-    corners += [(points, points) for points in (mesh.world_vertices for mesh in joined)]
+    held = [triangles_of(meshes, facts.instances)]
+    corners += [(it.position, it.position) for it in held if len(it.position)]
     grid = grid_of(
         np.min([low.min(axis=0) for low, _ in corners], axis=0),
         np.max([high.max(axis=0) for _, high in corners], axis=0),
     )
     del corners
-    count = sum(len(mesh.triangles.faces) for mesh in joined)
-    found = partial(triangles_of, meshes, facts.instances)
-    parts = _built((*boxes, *fixed), found, count, grid, MOST_HEIGHT - own.height)
+    parts = _built((*boxes, *fixed), held, grid, MOST_HEIGHT - own.height)
     slots = parts["slots"]
     bases = Bases(len(slots), len(parts["corners"]), len(parts["triangles"]))
     own = after(own, bases)
@@ -155,21 +152,16 @@ def _joined(first: Array, rest: Array) -> Array:
 
 
 def _built(
-    boxes: Sequence[Boxes],
-    found: Callable[[], Triangles],
-    count: int,
-    grid: Grid,
-    most_height: int,
+    boxes: Sequence[Boxes], held: list[Triangles], grid: Grid, most_height: int
 ) -> Mapping[str, Array]:
     """Return the BVH over boxes and triangles, with the triangles; the cache keeps large ones.
 
-    `found` computes the `count` triangles whenever it is called, so that they are not held in
-    memory while the BVH is built.
+    The triangles are taken from the list `held`, so that the memory is free while the BVH is built.
     """
-    others = sum(len(some.lower) for some in boxes)
+    others, count = sum(len(some.lower) for some in boxes), len(held[0].face)
 
     def built() -> dict[str, Array]:
-        packed = pack_triangles(found(), grid) if count else None
+        packed = pack_triangles(held.pop(), grid) if count else None
         leaves = (*boxes, *([packed.boxes] if packed else []))
         tree = build(leaves, grid, _room_for(others, count), most_height)
         return {
@@ -184,7 +176,7 @@ def _built(
         return built()
     edges = [edge for some in boxes for edge in (some.lower, some.upper)]
     words = [some.words() for some in boxes if some.words is not None]
-    return tree_cache.kept(tree_cache.key([*found(), *edges, *words]), built)
+    return tree_cache.kept(tree_cache.key([*held[0], *edges, *words]), built)
 
 
 def _room_for(shapes: int, triangles: int) -> int:
