@@ -53,14 +53,29 @@ def _shared_edges(faces: Ints, vertices: int) -> _Shared:
     start = corners.T.ravel()
     end = np.roll(corners, -1, axis=1).T.ravel()
     key = np.minimum(start, end) * np.int64(vertices) + np.maximum(start, end)
-    order = np.argsort(key, kind="stable").astype(np.int32)
-    key = key[order]
+    key, order = _sorted(key)
     same = np.flatnonzero(key[1:] == key[:-1])
     del key
     p, q = order[same], order[same + 1]
     apex = np.roll(corners, -2, axis=1).T.ravel()
     count = np.int32(len(faces))
     return _Shared(p % count, q % count, start[p], end[p], apex[p], apex[q])
+
+
+def _sorted(key: Ints) -> tuple[Ints, _Words]:
+    """Return keys of at least 0 in order, and their numbers before; equal ones keep their order.
+
+    Where a key and its number fit into 63 bits, they are sorted as one: numpy sorts integers some
+    eight times as fast as it finds the order of them.
+    """
+    bits = len(key).bit_length()
+    if int(key.max(initial=0)).bit_length() + bits > 63:
+        order = np.argsort(key, kind="stable")
+        return key[order], order.astype(np.int32)
+    both = key << bits
+    both |= np.arange(len(key))
+    both.sort()
+    return both >> bits, (both & ((1 << bits) - 1)).astype(np.int32)
 
 
 def _matched(shared: _Shared, vertices: Floats, triangles: int) -> Ints:
