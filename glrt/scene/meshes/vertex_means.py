@@ -71,13 +71,21 @@ def _portions(faces: Ints) -> Iterator[Ints]:
 def corner_angles(corners: Floats) -> tuple[Floats, Floats]:
     """Return unit vectors along edges, (n, 3, 3), and angles, (n, 3), of triangles, (n, 3, 3)."""
     along = unit_vectors(np.roll(corners, -1, axis=1) - corners)
-    cosine = -(along * np.roll(along, 1, axis=1)).sum(axis=2)
+    cosine = -_products(along, np.roll(along, 1, axis=1))
     return along, np.arccos(np.clip(cosine, -1, 1))
+
+
+def _products(one: Floats, other: Floats) -> Floats:
+    """Return scalar products of vectors, (..., 3); numpy takes longer to sum up rows of three."""
+    product: Floats = one[..., 0] * other[..., 0]
+    for axis in (1, 2):
+        product += one[..., axis] * other[..., axis]
+    return product
 
 
 def unit_vectors(vectors: Floats) -> Floats:
     """Return vectors of length 1, or zero where there is no length."""
-    length = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    length = np.sqrt(_products(vectors, vectors))[..., None]
     unit: Floats = np.divide(vectors, length, out=np.zeros_like(vectors), where=length > 0)
     return unit
 
