@@ -247,7 +247,7 @@ class Settings(RenderSettings):
     @field_validator("aov")
     @classmethod
     def _aovs_in_order(cls, value: tuple[Aov, ...]) -> tuple[Aov, ...]:
-        return tuple(aov for aov in get_args(Aov) if aov in value)
+        return cls._in_order(*value)
 
     @model_validator(mode="after")
     def _crop_lies_in_the_frame(self) -> Self:

@@ -66,7 +66,7 @@ def _sorted(key: Ints) -> tuple[Ints, _Words]:
     """Return keys of at least 0 in order, and their numbers before; equal ones keep their order.
 
     Where a key and its number fit into 63 bits, they are sorted as one: numpy sorts integers some
-    eight times as fast as it finds the order of them.
+    six times as fast as it finds the order of them.
     """
     bits = len(key).bit_length()
     if int(key.max(initial=0)).bit_length() + bits > 63:

@@ -38,8 +38,9 @@ class Image:
     observations. `samples` were taken per pixel, or on average (`counts`); an image of another
     program has 0 samples and no recipe. `film_state` is what a render needs to continue, if it is
     known. `particles` are two films whose sum is a picture with particles. `aovs` are the requested
-    AOVs, by name. `denoising` is the filtered picture, if it was requested. `sums` are the sums of
-    a film with layers, for a denoiser; files do not hold them. Raises ValueError for arrays of
+    AOVs, by name, and the objects of pixels that share random numbers. `denoising` is the filtered
+    picture, if it was requested. `sums` are the sums of a film with layers, for a denoiser; files
+    do not hold them. Raises ValueError for arrays of
     another shape or type.
     """
 

@@ -69,11 +69,10 @@ def own_part(net: NDArray[np.float32]) -> Shared:
     return Shared(mean.astype(np.float32), error.astype(np.float32))
 
 
-def combined(net: NDArray[np.float32], objects: Numbers, fits_own: bool = False) -> Shared:
+def combined(net: NDArray[np.float32], objects: Numbers) -> Shared:
     """Return the picture of groups, (2 PAIRS, H, W, 4): means, and samples in channel 3.
 
-    `objects` are numbers (H, W). Each group needs samples. With `fits_own`, a half finds its own
-    weights, which is biased.
+    `objects` are numbers (H, W). Each group needs samples.
     """
     height, width = objects.shape
     radiance, stderr = np.empty((2, height, width, 3), np.float32)
@@ -85,7 +84,7 @@ def combined(net: NDArray[np.float32], objects: Numbers, fits_own: bool = False)
         pairs, kept = _pairs(net[:, first:last]), slice(top - first, end - first)
         boxed = boxes(pairs.apart, BOXES, numbers[first:last])[..., kept, :]
         own = _Pairs(*(part[..., kept, :] for part in pairs))
-        found = _strip(own, boxed, regions_of(numbers[top:end]), scales, fits_own)
+        found = _strip(own, boxed, regions_of(numbers[top:end]), scales)
         radiance[top:end], stderr[top:end] = (np.moveaxis(plane, 0, -1) for plane in found)
     return Shared(radiance, stderr)
 
@@ -97,13 +96,11 @@ def _ranked(objects: Numbers) -> NDArray[np.intp]:
     return np.asarray((is_there.cumsum() - 1)[flat].reshape(objects.shape))
 
 
-def _strip(
-    pairs: _Pairs, boxed: Pixels, regions: Numbers, scales: Sequence[float], fits_own: bool
-) -> Shared:
+def _strip(pairs: _Pairs, boxed: Pixels, regions: Numbers, scales: Sequence[float]) -> Shared:
     """Some rows of the picture, (3, H, W); `boxed` is (boxes, PAIRS, 3, H, W)."""
     radiance, variance = np.zeros((2, *pairs.mean.shape[1:]))
     for half in (0, 1):
-        seen = half if fits_own else 1 - half
+        seen = 1 - half
         used, known = slice(half, None, 2), slice(seen, None, 2)
         level = np.square(pairs.mean[known].mean(axis=0)) + np.float32(scales[seen])
         level = np.where(level > 0, level, 1)
