@@ -40,8 +40,7 @@ class Image:
     known. `particles` are two films whose sum is a picture with particles. `aovs` are the requested
     AOVs, by name, and the objects of pixels that share random numbers. `denoising` is the filtered
     picture, if it was requested. `sums` are the sums of a film with layers, for a denoiser; files
-    do not hold them. Raises ValueError for arrays of
-    another shape or type.
+    do not hold them. Raises ValueError for arrays of another shape or type.
     """
 
     radiance: Pixels
