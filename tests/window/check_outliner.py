@@ -47,6 +47,8 @@ def a_row_selects_its_object_and_a_click_in_the_picture_its_row(hand: Hand) -> N
 @check
 def groups_fold_and_the_camera_leads_to_its_values(hand: Hand) -> None:
     app, lamps = hand.window.app, [7]
+    hand.turn_to("Scene")
+    hand.ctx.yield_(3)
     assert listed()[:4] == [("camera", 0), ("light", 1), ("object", *lamps), ("objects", 7)]
     in_list(hand, "##group light")
     assert ("object", 7) not in listed()
