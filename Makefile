@@ -11,7 +11,7 @@ IN_ENVIRONMENT = .venv/bin/python -m
 # Who has no test left takes from who has most: modules are torn apart at a few places alone.
 IN_PROCESSES = -n auto --maxprocesses 8 --dist worksteal
 
-.PHONY: help render view test check reference gallery bench charts mutants clean
+.PHONY: help render view test check reference gallery pictures bench charts mutants clean
 
 help: ## show this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## /{printf "make %-9s %s\n", $$1, $$2}' Makefile
@@ -42,6 +42,10 @@ reference: ## write the pages of docs/reference/ that follow from the program
 gallery: ## render every scene into gallery/
 	@$(BOOTSTRAP) render
 	$(IN_ENVIRONMENT) bench.gallery
+
+pictures: ## write all pictures in docs/pictures/; takes an hour
+	@$(BOOTSTRAP) bench
+	$(IN_ENVIRONMENT) bench.pictures
 
 bench: ## measure how fast the kernel, its variants and the window are, and other renderers
 	@$(BOOTSTRAP) bench

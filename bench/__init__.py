@@ -1,7 +1,6 @@
 """Measurements of speed, memory and noise of glrt and of other renderers. Not part of the wheel.
 
-Studies that are finished, and makers of single pictures in docs, are in the history of the
-repository, up to commit f3b2481.
+Studies that are finished are in the history of the repository, up to commit f3b2481.
 
 Programs, `python -m bench.NAME`; `--help` lists their options:
 
@@ -41,6 +40,8 @@ Programs, `python -m bench.NAME`; `--help` lists their options:
 - drags: whether the picture in the window follows a drag
 - redraw: how much clearer the picture is while the camera moves
 - upsampling: upsampled against enlarged coarse pictures at equal work
+- pictures: all pictures of docs
+- stress_sheets: the charts of all stress cases, on three sheets
 - gallery: every scene that comes with glrt, as pictures and a page of them
 - thumbnails: every scene that comes with glrt, in one small picture for the window
 - weekend: writes scenes/weekend.toml
@@ -64,7 +65,11 @@ They share:
 - ratios: ratios of times from interleaved rounds, with intervals
 - contest: one renderer against another, from many renders
 - cold_start: time and memory of a process to its first picture
-- contact_sheet: pictures in rows
+- sheets: renders with titles, in rows of one size
+- contact_sheet: pictures of any size in rows, small enough for a front page
+- composites: renders next to each other, for `pictures`
+- screen_sheets: AOVs and probes as the window shows them, for `pictures`
+- notebook_page: a live picture in JupyterLab, for `pictures`
 - screens: virtual X servers
 - truth: two renders of a scene that pictures are judged by
 - fooling_scenes: random scenes whose estimated error is likely to be wrong

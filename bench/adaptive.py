@@ -11,7 +11,6 @@ of docs for the first scene: the picture, and its counts.
 import argparse
 import sys
 import time
-from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -19,8 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bench.program import add_rounds, at_least, exit_code_of, machine, parser_of
-from bench.terms import titled, write_sheet
-from glrt.core.files import check_writable, write_whole
+from bench.sheets import in_rows, titled, write_sheet
+from glrt.core.files import check_writable
 from glrt.error.estimate import relative_error
 from glrt.gpu.context import Context, open_context
 from glrt.image.image import Image
@@ -71,7 +70,7 @@ def _run(parsed: argparse.Namespace) -> None:
             f"| `{name}` | {row.equal:.4f} | {row.own:.4f} | {row.gain:.2f} | {span} |", flush=True
         )
         if parsed.file and not number:
-            write_whole(parsed.file, partial(write_sheet, sheet=sheet_of(name, row.image)))
+            write_sheet(parsed.file, sheet_of(name, row.image))
     limit = f"{parsed.seconds:g} s" if parsed.seconds else f"{parsed.samples} samples"
     print(f"\n{machine(context.renderer)}; {parsed.size} x {parsed.size}, {limit}")
 
@@ -114,7 +113,7 @@ def sheet_of(name: str, image: Image) -> NDArray[np.uint8]:
     counts = image.counts.astype(np.float32)
     grey = np.repeat((counts / counts.max())[..., None], 3, axis=2)
     title = f"samples: {counts.min():.0f} (dark) to {counts.max():.0f} (light)"
-    return np.concatenate([titled(name, image.radiance), titled(title, grey)], axis=1)
+    return in_rows([titled(name, image.radiance), titled(title, grey)], 2)
 
 
 if __name__ == "__main__":

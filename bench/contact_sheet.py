@@ -38,13 +38,22 @@ def save_sheet(pictures: Sequence[Path | Codes], file: Path, most_bytes: int = M
             f"Cannot write {file}: even the smallest sheet of these pictures has {most_bytes} "
             "bytes. Choose fewer pictures."
         )
-    files.write_whole(file, lambda path: _write(path, data))
+    write_bytes(file, data)
 
 
 def check_sheet(file: Path) -> None:
     """Raise `UsageError` if `save_sheet` could not write to `file`; creates no file."""
     _format(file)
     files.check_writable(file)
+
+
+def write_bytes(file: Path, data: bytes) -> None:
+    """Write a whole file, or none."""
+
+    def write(path: Path) -> None:
+        path.write_bytes(data)
+
+    files.write_whole(file, write)
 
 
 def _format(file: Path) -> str:
@@ -111,7 +120,3 @@ def _encoded(sheet: Codes, kind: str, options: dict[str, Any]) -> bytes:
     file = io.BytesIO()
     Image.fromarray(sheet).save(file, kind, **options)
     return file.getvalue()
-
-
-def _write(path: Path, data: bytes) -> None:
-    path.write_bytes(data)

@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bench.program import add_picture, exit_code_of, parser_of
-from bench.terms import titled, write_sheet
-from glrt.core.files import check_writable, write_whole
+from bench.sheets import in_rows, titled, write_sheet
+from glrt.core.files import check_writable
 from glrt.gpu.context import Context, open_context
 from glrt.image.sources import load
 from glrt.rendering.pipelines import PLAIN, Variant
@@ -58,10 +58,7 @@ def _run(parsed: argparse.Namespace) -> None:
     cells.append(titled("mis", truth))
     print(f"\n{parsed.scene}, {parsed.size} x {parsed.size}, {parsed.samples} samples")
     if parsed.file:
-        cells += [np.full_like(cells[0], 255)] * (-len(cells) % COLUMNS)
-        rows = (cells[i : i + COLUMNS] for i in range(0, len(cells), COLUMNS))
-        sheet = np.concatenate([np.concatenate(row, axis=1) for row in rows])
-        write_whole(parsed.file, lambda path: write_sheet(path, sheet))
+        write_sheet(parsed.file, in_rows(cells, COLUMNS))
 
 
 def steps() -> Iterator[tuple[str, tuple[Effect, ...]]]:

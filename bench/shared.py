@@ -12,7 +12,6 @@ of the first scene.
 import argparse
 import sys
 import time
-from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple, get_args
 
@@ -21,8 +20,8 @@ from numpy.typing import NDArray
 
 from bench.nets import scene_of
 from bench.program import add_rounds, at_least, exit_code_of, machine, parser_of
-from bench.terms import titled, write_sheet
-from glrt.core.files import check_writable, write_whole
+from bench.sheets import in_rows, titled, write_sheet
+from glrt.core.files import check_writable
 from glrt.error.estimate import DARK, block_means
 from glrt.gpu.context import Context, open_context
 from glrt.image.image import Image
@@ -127,7 +126,7 @@ def _run(parsed: argparse.Namespace) -> None:
         print(f"| `{name}` | {gain} |", flush=True)
         if parsed.file and not number:
             shown = [titled(it, picture) for it, picture in zip(SAMPLERS, pictures, strict=True)]
-            write_whole(parsed.file, partial(write_sheet, sheet=np.concatenate(shown, axis=1)))
+            write_sheet(parsed.file, in_rows(shown, len(shown)))
     about = f"{parsed.size} x {parsed.size}, {parsed.samples} samples, {parsed.rounds} seeds"
     print(f"\n{machine(context.renderer)}; {about}")
 

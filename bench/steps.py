@@ -13,9 +13,9 @@ import numpy as np
 
 from bench.effects import DARK
 from bench.program import add_picture, exit_code_of, parser_of
-from bench.terms import titled, write_sheet
+from bench.sheets import in_rows, titled, write_sheet
 from glrt.core.errors import UsageError
-from glrt.core.files import check_writable, write_whole
+from glrt.core.files import check_writable
 from glrt.core.text import counted
 from glrt.gpu.context import Context, open_context
 from glrt.image.image import Image
@@ -57,8 +57,8 @@ def _run(parsed: argparse.Namespace) -> None:
         if voxels in SHOWN:
             cells.append(titled(f"steps of {counted(voxels, 'voxel')}", image.radiance))
     if parsed.file:
-        sheet = np.concatenate([*cells, titled("mis", truth.radiance)], axis=1)
-        write_whole(parsed.file, lambda path: write_sheet(path, sheet))
+        cells.append(titled("mis", truth.radiance))
+        write_sheet(parsed.file, in_rows(cells, len(cells)))
 
 
 def _rendered(context: Context, scene: Scene, **settings: Any) -> Image:

@@ -12,24 +12,19 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bench.program import add_rounds, at_least, exit_code_of, machine, parser_of
 from bench.ratios import LEAST_ROUNDS, ratio_of
-from glrt.core.files import check_writable, write_whole
+from bench.sheets import in_rows, titled, write_sheet
+from glrt.core.files import check_writable
 from glrt.gpu.context import Context, open_context
 from glrt.image.image import Image
 from glrt.image.sources import load
-from glrt.image.tonemap import expose_and_encode
 from glrt.rendering.renderer import Renderer
 from glrt.settings import TERMS, Method
 
 METHODS: tuple[Method, ...] = ("mis", "ddgi", "whitted")
 SHOWN = TERMS[:-1]  # the scene has no medium
-TITLE = 16  # pixels above a picture
-PAPER, INK = 255, (30, 30, 34)
-
-Codes = NDArray[np.uint8]
 
 
 class Found(NamedTuple):
@@ -66,10 +61,7 @@ def _run(parsed: argparse.Namespace) -> None:
         cells += [titled(title, mean) for title, mean in zip(titles, means, strict=True)]
     print(f"\n{machine(context.renderer)}; {parsed.size} x {parsed.size}, {parsed.samples} samples")
     if parsed.file:
-        columns = 1 + len(SHOWN)
-        rows = (cells[i : i + columns] for i in range(0, len(cells), columns))
-        sheet = np.concatenate([np.concatenate(row, axis=1) for row in rows])
-        write_whole(parsed.file, lambda path: write_sheet(path, sheet))
+        write_sheet(parsed.file, in_rows(cells, 1 + len(SHOWN)))
 
 
 def _found(context: Context, method: Method, parsed: argparse.Namespace) -> Found:
@@ -89,26 +81,6 @@ def _found(context: Context, method: Method, parsed: argparse.Namespace) -> Foun
     finally:
         plain.release()
         sorting.release()
-
-
-def write_sheet(path: Path, sheet: Codes) -> None:
-    """Write a sheet of pictures as a JPEG file."""
-    from PIL import Image as Pictures
-
-    Pictures.fromarray(sheet).save(path, "JPEG", quality=88, subsampling=0)
-
-
-def titled(title: str, radiance: NDArray[Any]) -> Codes:
-    """Return a picture of radiance as codes, (H + TITLE, W, 3), with its title above."""
-    from PIL import Image as Pictures
-    from PIL import ImageDraw
-
-    codes = expose_and_encode(radiance, 0.0, "neutral")
-    height, width, _ = codes.shape
-    paper = Pictures.fromarray(np.full((height + TITLE, width, 3), PAPER, np.uint8))
-    paper.paste(Pictures.fromarray(codes), (0, TITLE))
-    ImageDraw.Draw(paper).text((2, 2), title, fill=INK)
-    return np.asarray(paper)
 
 
 if __name__ == "__main__":

@@ -68,14 +68,14 @@ def save(findings: Sequence[Finding], folder: Path, renderer: str) -> None:
     files.write_text(folder / FIGURES, figures(findings))
     for finding in findings:
         save_chart(finding.chart(), folder / f"{finding.case.name}.svg")
-    save_sheet([finding.small_chart() for finding in findings], folder / OVERVIEW, _title(findings))
+    save_sheet([finding.small_chart() for finding in findings], folder / OVERVIEW, title(findings))
 
 
 def save_page(findings: Sequence[Finding], path: Path, renderer: str) -> None:
     """Write a page that needs no network: chart, values and pictures of each case."""
     about = f"glrt {VERSION} on {renderer}. Each picture is exposed by itself."
     sections = [_section(finding) for finding in findings]
-    save_chart_page(sections, path, _title(findings), about)
+    save_chart_page(sections, path, title(findings), about)
 
 
 def _section(finding: Finding) -> Section:
@@ -105,7 +105,8 @@ def _caption(image: Image, number: int, count: int) -> str:
     return f"picture {number} of {count}{method}, {image.samples} samples"
 
 
-def _title(findings: Sequence[Finding]) -> str:
+def title(findings: Sequence[Finding]) -> str:
+    """Return one line for a chart: the cases whose guarantee is broken, if any."""
     broken = [finding.case.name for finding in findings if not finding.holds]
     found = f"broken: {', '.join(broken)}" if broken else "no guarantee is broken"
     return f"glrt stress: {found}"
