@@ -50,10 +50,11 @@ def _taken(folder: Path) -> bytes:
 
 
 def _document() -> dict[str, Any]:
-    cell: dict[str, Any] = {"cell_type": "code", "execution_count": None, "metadata": {}, "outputs": []}
+    cell: dict[str, Any] = {"cell_type": "code", "execution_count": None}
+    cell |= {"metadata": {}, "outputs": [], "source": CELL}
     spec = {"name": "python3", "display_name": "Python 3", "language": "python"}
     return {
-        "cells": [{**cell, "source": CELL}],
+        "cells": [cell],
         "metadata": {"kernelspec": spec},
         "nbformat": 4,
         "nbformat_minor": 4,

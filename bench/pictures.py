@@ -108,6 +108,7 @@ RECIPES: dict[str, Recipe] = {
     "gather.jpg": gather,
     "glossy.jpg": glossy,
     "leaks.png": leaks,
+    "leaves.jpg": One(_PRINCIPLED, "# leaves.toml", {**_SPHERES, "samples": 512}),
     "models.jpg": models,
     "notebook.webp": notebook,
     "orbital.jpg": One(
@@ -128,13 +129,9 @@ RECIPES: dict[str, Recipe] = {
     "stress-more.png": _STRESS,
     "stress-third.png": _STRESS,
     "stress.png": _STRESS,
-    "tea.jpg": from_page(
-        *("how-to/media.md", '"drinks.png"'),
-        width=330,
-        height=220,
-        samples=256,
-        denoise="auto",
-        bounces=200,
+    "tea.jpg": One(
+        *(_MEDIA, '"drinks.png"'),
+        {"width": 330, "height": 220, "samples": 256, "bounces": 200, "denoise": "auto"},
     ),
     "temporal.webp": _bench("redraw", "film", "{file}", *_MODES),
     "terms.jpg": _bench("terms", *_OUT, "--size", "160", "--samples", "256"),

@@ -19,7 +19,7 @@ Modules, each importing only what stands above it:
 - temporal: what is shown from frame to frame
 - blur: the blur of what moves while the shutter is open
 - sky: a sun of one pixel in an image of the sky
-- rough_glass: the light that rough glass, plastic, films, cloth and brushed metal keep
+- rough_glass: the light that rough glass, plastic, films, cloth, paper and brushed metal keep
 - textures: coordinates far away, bent normals, layers full of holes
 - points: points of a sampler in ever more dimensions
 - sums: accumulation, random numbers, long paths

@@ -80,6 +80,7 @@ _ALL = (
     Case("brushed", "The light that white brushed metal keeps", rough_glass.brushed),
     Case("soap", "The light that white plastic under a thin film gains", rough_glass.soap),
     Case("velvet", "The light that white cloth with sheen gains", rough_glass.velvet),
+    Case("leaf", "The light that white paper gains, which lets light through", rough_glass.leaf),
     Case("frosted", "A lamp inside frosted glass", rough_glass.frosted),
     Case("layers", "Layers that are there in part", textures.layers),
     Case("bumps", "A normal bent by an image", textures.bumps),

@@ -1,12 +1,12 @@
-"""Rough glass, plastic, films, cloth, brushed metal: the light that they keep; a lamp in glass."""
+"""Rough glass, plastic, films, cloth, paper, brushed metal: the light that they keep."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
 
-from glrt.lab.scenes import glass, lamp, matte, scene_of, sphere
+from glrt.lab.scenes import Table, glass, lamp, matte, scene_of, sphere
 from glrt.lab.sweep import SIGMAS, Array, Lab, Sweep, mean_of
 from glrt.rendering.shader_functions import World
 from glrt.scene.scene import Scene
@@ -117,25 +117,10 @@ _COLORS = f"{_SAMPLE}\n    vec3 colors = next.weight;"
 def soap(lab: Lab) -> Sweep:
     """Share of light that white plastic under a film gains: the worst channel of six directions."""
     x = [50.0, 100.0, 150.0, 200.0, 300.0, 400.0, 600.0, 800.0, 1200.0]
-    count = lab.count(1 << 15, 1 << 14)
+    film = {"iridescence": 1.0, "iridescence_ior": 1.4}
+    looks = [{"roughness": ROUGHNESS, **film, "iridescence_thickness": it} for it in x]
     ways = {"glrt: the base gets what a bound leaves": _COLORS, "sample viewer of glTF": _VIEWER}
-    gains: dict[str, list[float]] = {name: [] for name in ways}
-    for thickness in x:
-        film = {"iridescence": 1.0, "iridescence_ior": 1.4, "iridescence_thickness": thickness}
-        materials = {"p": {"type": "principled", "roughness": ROUGHNESS, **film}}
-        scene = scene_of([sphere([0, 0, -3], 1, "p")], materials)
-        for name, setup in ways.items():
-            gains[name].append(max(_gains(lab, scene, setup, count)))
-    first, *others = gains.items()
-    return Sweep(
-        parameter="thickness of the film (nm)",
-        measure="light gained\n(share, largest)",
-        x=x,
-        chosen=first,
-        others=dict(others),
-        promise="at most 0.005",
-        bound=[0.005] * len(x),
-    )
+    return _gained(lab, "thickness of the film (nm)", dict(zip(x, looks, strict=True)), ways, 0.005)
 
 
 # Sheen that is not held back where it reflects more than all light.
@@ -150,24 +135,49 @@ _FREE = f"""{_COLORS}
 def velvet(lab: Lab) -> Sweep:
     """Share of light that white cloth gains: the worst of six directions."""
     x = [0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4]
-    count = lab.count(1 << 16, 1 << 15)
+    looks = {it: {"roughness": 0.8, "sheen": [1, 1, 1], "sheen_roughness": it} for it in x}
     ways = {"glrt: held back by its albedo": _COLORS, "sheen as it is": _FREE}
+    return _gained(lab, "roughness of sheen", looks, ways, 0.01)
+
+
+# A base that reflects all of its light, beside what it lets through.
+_UNSHARED = f"""{_COLORS}
+    vec3 wi = next.direction;
+    Principled it = principled_of(vertex.material);
+    float share = translucency_of(it.gloss).share;
+    Shares from = shares_of(vertex, it.gloss, wi);
+    Shares to = shares_of(vertex, it.gloss, vertex.wo);
+    vec3 base = it.base * (from.base * to.base * it.gloss.even_base * wi.z / PI);
+    if (next.pdf > 0.0 && !next.crosses) colors += share / (1.0 - share) * base / next.pdf;"""
+
+
+def leaf(lab: Lab) -> Sweep:
+    """Share of light that white paper gains, on both sides: the worst of six directions."""
+    looks = {it: {"diffuse_transmission": it} for it in (0.1, 0.2, 0.3, 0.5, 0.7, 0.9)}
+    ways = {"glrt: taken from the base": _COLORS, "added to the base": _UNSHARED}
+    return _gained(lab, "share of the base that lets light through", looks, ways, 0.01)
+
+
+def _gained(
+    lab: Lab, parameter: str, looks: Mapping[float, Table], ways: Mapping[str, str], most: float
+) -> Sweep:
+    """The light that white principled surfaces gain, by a parameter; the first way is glrt's."""
+    count = lab.count(1 << 16, 1 << 15)
     gains: dict[str, list[float]] = {name: [] for name in ways}
-    for roughness in x:
-        cloth = {"sheen": [1, 1, 1], "sheen_roughness": roughness}
-        materials = {"p": {"type": "principled", "roughness": 0.8, **cloth}}
+    for look in looks.values():
+        materials = {"p": {"type": "principled", **look}}
         scene = scene_of([sphere([0, 0, -3], 1, "p")], materials)
         for name, setup in ways.items():
             gains[name].append(max(_gains(lab, scene, setup, count)))
     first, *others = gains.items()
     return Sweep(
-        parameter="roughness of sheen",
+        parameter=parameter,
         measure="light gained\n(share, largest)",
-        x=x,
+        x=list(looks),
         chosen=first,
         others=dict(others),
-        promise="at most 0.01",
-        bound=[0.01] * len(x),
+        promise=f"at most {most:g}",
+        bound=[most] * len(looks),
     )
 
 

@@ -171,7 +171,7 @@ def _pack_gloss(facts: SceneFacts, albedos: Albedos) -> Array:
 
 
 def _put_layers(facts: SceneFacts, of_all: list[Finished], rows: Array, first: int) -> None:
-    """Change rows of the struct Gloss with films or sheen, whose own rows begin at `first`."""
+    """Change rows of the struct Gloss with layers of their own, whose rows begin at `first`."""
     row_of = dict[str, int]()
     for name, own in zip(_layered(facts), _layers(facts), strict=True):
         row_of[name] = first
@@ -212,13 +212,18 @@ def _mean_left(tables: list[FacetShares], weights: Array, factors: tuple[float, 
 
 def _layered(facts: SceneFacts) -> dict[str, Principled]:
     found = _principled(facts)
-    return {name: it for name, it in found.items() if it.film or any(it.sheen)}
+    return {
+        name: it
+        for name, it in found.items()
+        if it.film or any(it.sheen) or it.diffuse_transmission
+    }
 
 
 def _layers(facts: SceneFacts) -> list[Array]:
-    """Return rows of the struct Albedo for each material with a thin film or sheen.
+    """Return rows of the struct Albedo for each material with layers of its own.
 
-    The first is the film, the second the sheen, and albedos of sheen follow.
+    The first is the thin film, the second the sheen. Albedos of sheen follow, then what the matte
+    base lets through.
     """
     return [_layer(it) for it in _layered(facts).values()]
 
@@ -230,9 +235,12 @@ def _layer(material: Principled) -> Array:
     rows[0] = share, film.ior, film.micrometres, _bound(material)[1]
     alpha = sheen_alpha(material.sheen_roughness)
     rows[1] = *material.sheen, 0.5 / alpha
-    if not any(material.sheen):
-        return np.concatenate([rows, _rows_of([(np.zeros(ALBEDOS + 1),) * 2])])
-    return np.concatenate([rows, _rows_of([sheen_albedos(alpha)])])
+    none = (np.zeros(ALBEDOS + 1),) * 2
+    albedos = _rows_of([sheen_albedos(alpha) if any(material.sheen) else none])
+    base = np.zeros(1, STRUCTS["Albedo"])
+    through = material.diffuse_transmission
+    base[0] = *(through * color for color in material.diffuse_transmission_color), through
+    return np.concatenate([rows, albedos, base])
 
 
 def _again(f0: float, f90: float, kept: float) -> float:

@@ -130,6 +130,7 @@ class Needs:
     )
     has_iridescence: bool = _made_of("thin film", "iridescence", lambda it: it.iridescent)
     has_sheen: bool = _made_of("surface with sheen", "sheen", lambda it: it.sheened)
+    has_translucency: bool = _made_of("translucent", "translucency", lambda it: it.translucent)
     has_rough_glass: bool = _row(
         lambda it: it.traits.follows and it.traits.has_rough and bool(it.facts.rough_glasses),
         "rough glass",

@@ -42,6 +42,11 @@ class LobeFacts:
         return [name for name, it in self._principled.items() if any(it.sheen)]
 
     @property
+    def translucent(self) -> list[str]:
+        """Names of the principled materials whose matte base lets light through."""
+        return [name for name, it in self._principled.items() if it.diffuse_transmission > 0]
+
+    @property
     def transmitting(self) -> list[str]:
         """Names of the principled materials that are partly glass."""
         return [name for name, it in self._principled.items() if it.glass]

@@ -129,6 +129,7 @@ def _choice(found: SceneFacts) -> dict[str, bool | int]:
         "HAS_ANISOTROPY": bool(found.lobes.anisotropic),
         "HAS_IRIDESCENCE": bool(found.lobes.iridescent),
         "HAS_SHEEN": bool(found.lobes.sheened),
+        "HAS_TRANSLUCENCY": bool(found.lobes.translucent),
         "HAS_DISPERSION": bool(found.lobes.dispersing),
         "HAS_ROUGH_GLASS": bool(found.rough_glasses),
         "HAS_ATTENUATION": bool(found.tinted),

@@ -46,7 +46,7 @@ float weight_of_link(Particle self, float rho, float turn) {
 bool leaves_so(Vertex vertex, vec3 wi, inout Ray ray) {
     bool crosses = wi.z < 0.0;
     if (crosses) ray.inward = !ray.inward;
-    return wi.z > 0.0 || crosses && is_rough_glass(vertex.material);
+    return wi.z > 0.0 || crosses && scatters_across(vertex.material);
 }
 
 // Links a particle straight to the eye and adds the light that it scatters there.

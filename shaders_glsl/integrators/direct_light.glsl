@@ -15,7 +15,7 @@ bool is_under_open_sky(Material material) {
 vec3 direct_light(Vertex vertex, LightSample light, float rho, bool is_sky) {
     if (light.pdf == 0.0 || is_dark(light)) return vec3(0.0);
     vec3 wi = to_local(vertex.frame, light.ray.direction);
-    bool crosses = is_rough_glass(vertex.material) && wi.z < 0.0;
+    bool crosses = scatters_across(vertex.material) && wi.z < 0.0;
     if (wi.z <= 0.0 && !crosses) return vec3(0.0);
     if (is_left_out(vertex.material, crosses)) return vec3(0.0);
     bool is_open = is_sky && is_under_open_sky(vertex.material);

@@ -42,7 +42,7 @@ Vertex vertex_from(Vertex vertex, Normals at, vec3 w) {
 ColorLobe lobe_towards(Vertex vertex, vec3 facing, vec3 wi) {
     vec3 local = to_local(vertex.frame, wi);
     bool crosses = local.z < 0.0;
-    bool is_lost = crosses ? !is_rough_glass(vertex.material) : local.z == 0.0;
+    bool is_lost = crosses ? !scatters_across(vertex.material) : local.z == 0.0;
     if (is_lost || HAS_SHADING && crosses != dot(wi, facing) < 0.0) return ColorLobe(vec3(0.0), 0.0);
     vec3 value = eval_material(vertex, local);
     float pdf = pdf_material(vertex, local);

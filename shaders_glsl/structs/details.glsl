@@ -34,14 +34,15 @@ struct Gloss {
     float again;         // share of the light lost by dielectric facets that comes back, in the brightest channel
     float brightest;     // largest channel of f0; under a thin film, f0 of a bound of the reflectance
     float transmission;  // chance that a path meets its glass
-    int glass;           // its row among the materials; -1 - the row of film and sheen among the albedos
+    int glass;           // its row among the materials; -1 - the row of its film among the albedos
     int turns;           // steps of a quarter turn between the albedos of facets; 0: facets are alike all round
     float even_base;     // 1 over the share of even light that dielectric facets leave
 };
 
 // Directional albedos of facets, which scatter once: at both ends of a step of the root of the cosine. The two numbers
 // of rough glass are for light from outside and from inside; those of gloss are the factors of f0 and f90.
-// Rows after them hold thin films and sheen: bsdfs/iridescence.glsl, bsdfs/sheen.glsl.
+// Rows after them hold thin films, sheen and what a base lets through: bsdfs/iridescence.glsl, bsdfs/sheen.glsl,
+// bsdfs/translucency.glsl.
 struct Albedo {
     float one;
     float other;

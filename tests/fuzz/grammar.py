@@ -86,6 +86,8 @@ PRINCIPLED = {
     "anisotropy": FRACTIONS,
     "anisotropy_rotation": st.floats(-720, 720),
     "sheen": COLORS,
+    "diffuse_transmission": FRACTIONS,
+    "diffuse_transmission_color": COLORS,
     "sheen_roughness": FRACTIONS,
     "iridescence": FRACTIONS,
     "iridescence_ior": st.floats(1, 4),

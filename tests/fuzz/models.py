@@ -97,6 +97,7 @@ def whole_gltf() -> Builder:
         "KHR_materials_anisotropy": {"anisotropyStrength": 0.2, "anisotropyRotation": 1.0},
         "KHR_materials_iridescence": {"iridescenceFactor": 0.7, "iridescenceIor": 1.4},
         "KHR_materials_sheen": {"sheenColorFactor": [0.5, 0, 1], "sheenRoughnessFactor": 0.4},
+        "KHR_materials_diffuse_transmission": {"diffuseTransmissionFactor": 0.5},
         "KHR_materials_transmission": {"transmissionFactor": 0.3},
         "KHR_materials_volume": {"thicknessFactor": 1, "attenuationDistance": 2.0},
         "KHR_materials_dispersion": {"dispersion": 0.5},

@@ -82,6 +82,7 @@ MATERIALS: dict[str, dict[str, Any]] = {
     "plastic": {"type": "principled"},
     "painted": {"type": "principled", "clearcoat": 1.0},
     "velvet": {"type": "principled", "sheen": [0.5, 0.5, 0.5]},
+    "leaf": {"type": "principled", "diffuse_transmission": 0.5},
     "soapy": {"type": "principled", "iridescence": 1.0},
     "wax": {"type": "principled", "transmission": 0.5, "roughness": 0},
     "checked": {"type": "lambertian", "color": _CHECKER},
@@ -147,6 +148,7 @@ def needs_with(flags: set[str]) -> Needs:
     made_of |= {"HAS_ATTENUATION": "tinted", "HAS_NESTED": "water", "HAS_IRIDESCENCE": "soapy"}
     made_of |= {"HAS_NONE": "none", "HAS_COLOR_MAP": "checked", "HAS_EMISSION_MAP": "glowing"}
     made_of |= {"HAS_SHEEN": "velvet", "HAS_DISPERSION": "prism"}
+    made_of |= {"HAS_TRANSLUCENCY": "leaf"}
     made_of |= {"HAS_GLOSS_MAP": "worn", "HAS_NORMAL_MAP": "bumpy"}
     made_of |= {"HAS_COVERAGE_MAP": "torn", "HAS_HOLE": "gauze", "HAS_TRANSMISSION_MAP": "label"}
     objects = [body(name) for flag, name in made_of.items() if flag in flags]

@@ -42,7 +42,7 @@ UNUSED: list[tuple[str, dict[str, Any], list[str]]] = [
     ("lamps", {}, ["bsdfs/ggx.glsl", "bsdfs/metal.glsl", "probes/maps.glsl"]),
     ("lamps", {"sampler": "independent"}, ["sampling/sobol.glsl"]),
     ("metals", {}, ["probes/grid.glsl"]),
-    ("gloss", {}, ["bsdfs/iridescence.glsl", "bsdfs/sheen.glsl"]),
+    ("gloss", {}, ["bsdfs/iridescence.glsl", "bsdfs/sheen.glsl", "bsdfs/crossing_base.glsl"]),
     ("metals", {"method": "blinn"}, ["integrators/phong.glsl"]),
     ("methods/open", {}, ["lights/quad_solid_angle.glsl"]),
     (

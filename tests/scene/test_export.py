@@ -244,6 +244,14 @@ def test_sheen_is_read_again(tmp_path: Path) -> None:
     assert {key: getattr(found, key) for key in cloth} == cloth
 
 
+def test_diffuse_transmission_is_read_again(tmp_path: Path) -> None:
+    leaf = {"diffuse_transmission": 0.5, "diffuse_transmission_color": (0.5, 0.25, 1.0)}
+    scene = scene_of([mesh(icosphere(1), "paint")], {"paint": PAINT | leaf}, CAMERA)
+    assert left_out(scene) == ""
+    found = read_again(scene, tmp_path)[-1]
+    assert {key: getattr(found, key) for key in leaf} == leaf
+
+
 def test_dispersion_is_read_again(tmp_path: Path) -> None:
     clear = PAINT | {"clearcoat": 0.0, "transmission": 1.0, "roughness": 0.0, "dispersion": 0.5}
     flint = glass(1.75, dispersion=0.25)

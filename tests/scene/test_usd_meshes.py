@@ -227,14 +227,13 @@ def test_what_is_not_shown_is_reported_by_kind(tmp_path: Path) -> None:
     curve = "int[] curveVertexCounts = [2]\npoint3f[] points = [(0, 0, 0), (1, 0, 0)]"
     curves = prim("BasisCurves", "one", curve) + prim("BasisCurves", "two", curve)
     bones = prim("SkelRoot", "body", prim("Skeleton", "bones"))
-    samples = "double3 xformOp:translate.timeSamples = {\n1: (0, 0, 0),\n2: (1, 0, 0),\n}\n"
-    order = 'uniform token[] xformOpOrder = ["xformOp:translate"]\n'
-    moves = prim("Xform", "moves", samples + order)
+    grows = "double radius.timeSamples = {\n1: 1,\n2: 3,\n}\n"
+    moves = prim("Sphere", "balloon", grows)
     told = left_out(scene_of(tmp_path, layer(subdivided + curves + bones + moves)))
     assert "BasisCurves (2 times)" in told
     assert "subdivision of meshes" in told
     assert "skeletons" in told
-    assert "time samples" in told
+    assert "changes over time of 'radius'" in told
 
 
 def test_colors_of_meshes_without_a_material_are_shown(tmp_path: Path) -> None:

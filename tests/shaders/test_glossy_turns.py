@@ -35,6 +35,7 @@ KINDS[BRUSHED] = {
     "anisotropy": 0.7,
     "iridescence": 0.9,
     "sheen": [0.5, 0.4, 0.3],
+    "diffuse_transmission": 0.4,
 }
 kinds = pytest.mark.parametrize(
     "kind", [pytest.param(k, marks=pytest.mark.slow) if k == BRUSHED else k for k in KINDS]
@@ -149,7 +150,7 @@ def test_metal_turns_by_what_facets_hide(call_glsl: CallGlsl, kind: str) -> None
 @pytest.mark.slow
 def test_brushed_facets_lie_alike_for_paths_from_either_end(call_glsl: CallGlsl) -> None:
     """The value times the cosine of the other direction is the same in both."""
-    what = """vec2(eval_material(met, to_local(met.frame, wi)).g * next.direction.z,
+    what = """vec2(eval_material(met, to_local(met.frame, wi)).g * abs(next.direction.z),
         eval_material(vertex, to_local(vertex.frame, next.direction)).g * wi.z)"""
     found, _ = scattered(call_glsl, BRUSHED, "vec2", what)
     goes = found[:, 1] > 1e-3

@@ -29,6 +29,7 @@ STILL_LIFE = {
         "anisotropy": 0.7,
         "iridescence": 0.8,
         "sheen": [0.5, 0.2, 0.3],
+        "diffuse_transmission": 0.5,
     },
 }
 CONSTANTS = {"ambient": 0.1, "diffuse": 0.8, "specular": 0.5, "exponent": 20}

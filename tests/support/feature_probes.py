@@ -50,8 +50,9 @@ PROBES = {
         "= {} * crossed * crossed",
     ),
     "HAS_SHEEN": ("bsdfs/sheen.glsl", "value /= max", "value /= {} * max"),
+    "HAS_TRANSLUCENCY": ("bsdfs/crossing_base.glsl", "mirrored.z / PI", "{} * mirrored.z / PI"),
     "HAS_TRANSMISSION": (
-        "bsdfs/principled.glsl",
+        "bsdfs/principled_parts.glsl",
         "share = gloss.transmission",
         "share = {} * gloss.transmission",
     ),

@@ -23,6 +23,7 @@ FEATURES: Mapping[str, Any] = {
     "anisotropy": 0.0,
     "iridescence": 0.0,
     "sheen": BLACK,
+    "diffuse_transmission": 0.0,
     "dispersion": 0.0,
     "transmission": 0.0,
     "roughness": 0.0,

@@ -166,6 +166,11 @@ class MaterialWriter:
                 "sheenColorFactor": list(material.sheen),
                 "sheenRoughnessFactor": material.sheen_roughness,
             }
+        if material.diffuse_transmission:
+            found["KHR_materials_diffuse_transmission"] = {
+                "diffuseTransmissionFactor": material.diffuse_transmission,
+                "diffuseTransmissionColorFactor": list(material.diffuse_transmission_color),
+            }
         if material.transmission:
             crossing: Table = {"transmissionFactor": material.transmission}
             if image := material.textures.get("transmission"):

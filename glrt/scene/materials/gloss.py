@@ -1,6 +1,6 @@
 """Light that the facets of a principled surface reflect, by quadrature.
 
-shaders_glsl/bsdfs/principled.glsl looks it up.
+shaders_glsl/bsdfs/principled_parts.glsl looks it up.
 """
 
 import math

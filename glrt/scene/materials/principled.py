@@ -93,6 +93,14 @@ class Principled(Opaque):
     sheen_roughness: Annotated[Fraction, Editable()] = Field(
         0.3, description="of sheen; its alpha is the square, at least 0.01"
     )
+    diffuse_transmission: Annotated[Fraction, Editable(Cost.RECOMPILE)] = Field(
+        0.0,
+        description="share of the matte base that lets light through and scatters it, as leaves "
+        "and paper do; not with transmission",
+    )
+    diffuse_transmission_color: Annotated[Color, Editable()] = Field(
+        WHITE, description="of the light that it lets through"
+    )
     color_map: Texture | None = None
     emission_map: Texture | None = None
     metallic_map: Texture | None = None
@@ -137,6 +145,8 @@ class Principled(Opaque):
             iridescence_thickness: Number = 400.0,
             sheen: Triple = BLACK,
             sheen_roughness: Number = 0.3,
+            diffuse_transmission: Number = 0.0,
+            diffuse_transmission_color: Triple = WHITE,
             emission: Triple | Texture = BLACK,
             group: str | None = None,
             cone: Cone | Mapping[str, Any] | None = None,
@@ -169,6 +179,8 @@ class Principled(Opaque):
             raise ValueError("iridescence of glass is not known; leave it or transmission out")
         if any(self.sheen) and self.transmission > 0:
             raise ValueError("sheen of glass is not known; leave it or transmission out")
+        if self.diffuse_transmission > 0 and self.transmission > 0:
+            raise ValueError("diffuse_transmission of glass is not known; leave one of the two out")
         if self.anisotropy > 0 and self.roughness_map:
             raise ValueError("roughness as a texture with anisotropy is not known; give a number")
         if self.has_holes and self.emits and not (self.is_unlit or self.emission_map):
@@ -195,12 +207,13 @@ class Principled(Opaque):
     @property
     def is_unlit(self) -> bool:
         """Whether it shows its emission and reflects nothing, as in KHR_materials_unlit."""
-        return self.emits and not (any(self.color) or self.specular or any(self.sheen))
+        scatters = any(self.color) or self.specular or any(self.sheen) or self.diffuse_transmission
+        return self.emits and not scatters
 
     @property
     def is_matte(self) -> bool:
         """Whether it scatters as a Lambertian surface does: no metal, facets, glass or coat."""
-        layers = self.transmission or self.clearcoat or any(self.sheen)
+        layers = self.transmission or self.clearcoat or any(self.sheen) or self.diffuse_transmission
         return not (self.metallic or self.specular or layers)
 
     @property

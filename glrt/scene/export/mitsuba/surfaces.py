@@ -111,6 +111,8 @@ class Surfaces:
             self._report(f"the iridescence of {quoted(name)}")
         if any(material.sheen):
             self._report(f"the sheen of {quoted(name)}")
+        if material.diffuse_transmission:
+            self._report(f"the diffuse transmission of {quoted(name)}")
         if material.clearcoat:
             self._report(f"the exact coat of {quoted(name)}")
         if material.specular != 1 or material.specular_color != (1, 1, 1):

@@ -123,6 +123,8 @@ class Materials:
             self._report(f"the iridescence of {quoted(name)}")
         if any(material.sheen):
             self._report(f"the sheen of {quoted(name)}")
+        if material.diffuse_transmission:
+            self._report(f"the diffuse transmission of {quoted(name)}")
         if material.clearcoat:
             self._report(f"the coat of {quoted(name)}")
         if material.transmission:

@@ -28,6 +28,7 @@ KNOWN = {  # extensions that are read, or change nothing here
     "KHR_materials_anisotropy",
     "KHR_materials_iridescence",
     "KHR_materials_sheen",
+    "KHR_materials_diffuse_transmission",
     "KHR_materials_dispersion",
     "KHR_materials_emissive_strength",
     "KHR_materials_variants",

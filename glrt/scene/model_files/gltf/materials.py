@@ -20,6 +20,10 @@ _UNREAD = {  # textures that have no counterpart, by extension
     "KHR_materials_anisotropy": ("anisotropyTexture",),
     "KHR_materials_iridescence": ("iridescenceTexture", "iridescenceThicknessTexture"),
     "KHR_materials_sheen": ("sheenColorTexture", "sheenRoughnessTexture"),
+    "KHR_materials_diffuse_transmission": (
+        "diffuseTransmissionTexture",
+        "diffuseTransmissionColorTexture",
+    ),
     "KHR_materials_clearcoat": (
         "clearcoatTexture",
         "clearcoatRoughnessTexture",
@@ -195,6 +199,12 @@ def _layers(
     if any(fibres):
         look.table["sheen"] = fibres
         look.table["sheen_roughness"] = value(cloth, "sheenRoughnessFactor", 0)
+    leaf = own("diffuse_transmission")
+    if through := value(leaf, "diffuseTransmissionFactor", 0):
+        key = "diffuseTransmissionColorFactor"
+        tint = look.numbers(leaf.get(key, [1, 1, 1]), 3, f"{here}: {key}")
+        look.table["diffuse_transmission"] = through
+        look.table["diffuse_transmission_color"] = tint
     if transmission:
         image = textures.table(crossed.get("transmissionTexture"), f"{here}: transmissionTexture")
         factor = {**image, "channel": "r", "factor": transmission} if image else transmission
@@ -212,6 +222,8 @@ def _fit_glass(look: Look) -> None:
         _leave_out(look, "anisotropy", "anisotropy of transmission")
     if look.table.get("iridescence"):
         _leave_out(look, "iridescence", "iridescence of transmission")
+    if look.table.get("diffuse_transmission"):
+        _leave_out(look, "diffuse_transmission", "diffuse transmission of transmission")
     if look.table.pop("sheen", None):
         look.unread.append("sheen of transmission")
     if isinstance(look.table["metallic"], dict):

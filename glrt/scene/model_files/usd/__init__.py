@@ -13,6 +13,7 @@ Modules, each importing only what stands above it:
 - primitives: polygons as primitives of a glTF file
 - lamps: lights, as tables of a scene
 - cameras: cameras, and their lenses
+- motion: motion, as an animation of a glTF file
 - placing: where things stand, and instances
 - conversion: a file as the content of a .glb file
 - process: runs the conversion

@@ -12,6 +12,7 @@ from glrt.scene.model_files.gltf_file import GltfFile
 from glrt.scene.model_files.usd.lamps import Lamps
 from glrt.scene.model_files.usd.layers import Folder, opened_stage
 from glrt.scene.model_files.usd.looks import Looks
+from glrt.scene.model_files.usd.motion import Motion
 from glrt.scene.model_files.usd.placing import Placing
 from glrt.scene.model_files.usd.primitives import Primitives
 from glrt.scene.model_files.usd.reports import LeftOut, UnshownError
@@ -33,7 +34,6 @@ def converted(folder: Folder) -> bytes:
     glb = GltfFile("glrt")
     textures = Textures(glb, folder, time)
     looks, lamps = Looks(textures, left), Lamps(left, textures, time)
-    placing = Placing(glb, Primitives(glb, looks, left, time), lamps, left, time)
     unit = UsdGeom.GetStageMetersPerUnit(stage)
     if not 1e-12 < unit < 1e12:
         left.add("metersPerUnit")
@@ -41,9 +41,12 @@ def converted(folder: Folder) -> bytes:
     frame = np.diag([unit, unit, unit, 1.0])
     if UsdGeom.GetStageUpAxis(stage) == "Z":
         frame = _Y_FROM_Z @ frame
+    motion = Motion(stage, frame, left, not time.IsDefault())
+    placing = Placing(glb, Primitives(glb, looks, left, time), lamps, motion, left, time)
     placing.place(stage, frame, unit)
     for number, node in enumerate(placing.nodes):
         assert glb.add("nodes", node) == number
+    motion.add_to(glb)
     glb.add("scenes", {"nodes": list(range(len(placing.nodes)))})
     for look in looks.found:
         glb.add("materials", {"name": look.name})
@@ -60,15 +63,17 @@ def converted(folder: Folder) -> bytes:
 
 def _moment(stage: Usd.Stage, left: LeftOut) -> Usd.TimeCode:
     """Return the moment at which a file is shown: its first; with clips, that of no samples."""
-    moves, has_clips = False, False
+    has_clips, changing = False, set[str]()
     for prim in stage.Traverse():
         has_clips |= prim.HasAuthoredMetadata("clips")
-        moves |= any(it.GetNumTimeSamples() > 1 for it in prim.GetAuthoredAttributes())
+        for it in prim.GetAuthoredAttributes():
+            if it.GetNumTimeSamples() > 1 and not it.GetName().startswith("xformOp:"):
+                changing.add(it.GetName())
     if has_clips:
         left.add("value clips")
         return Usd.TimeCode.Default()
-    if moves:
-        left.add("time samples after the first moment")
+    for name in sorted(changing):
+        left.name("changes over time of", name)
     if stage.HasAuthoredTimeCodeRange():
         return Usd.TimeCode(stage.GetStartTimeCode())
     return Usd.TimeCode.EarliestTime()

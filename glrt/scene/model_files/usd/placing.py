@@ -10,6 +10,7 @@ from pxr import Usd, UsdGeom, UsdLux
 from glrt.scene.model_files.gltf_file import GltfFile, Table
 from glrt.scene.model_files.usd.cameras import camera_table, lens_table
 from glrt.scene.model_files.usd.lamps import Lamps
+from glrt.scene.model_files.usd.motion import Motion
 from glrt.scene.model_files.usd.polygons_of_prims import polygons_of
 from glrt.scene.model_files.usd.primitives import Primitives, bound_material
 from glrt.scene.model_files.usd.reports import LeftOut, UnshownError
@@ -38,11 +39,12 @@ class Placing:
         glb: GltfFile,
         primitives: Primitives,
         lamps: Lamps,
+        motion: Motion,
         left: LeftOut,
         time: Usd.TimeCode,
     ) -> None:
         self._glb, self._primitives, self._lamps = glb, primitives, lamps
-        self._left, self._time = left, time
+        self._motion, self._left, self._time = motion, left, time
         self._places = UsdGeom.XformCache(time)
         self._meshes: dict[object, int | None] = {}
         self.nodes: list[Table] = []
@@ -64,9 +66,11 @@ class Placing:
             self._camera(prim, placed, unit)
         elif prim.HasAPI(UsdLux.LightAPI):
             self._lamps.add(prim, placed, 1 / unit)
+            if self._motion.keys(prim) is not None:
+                self._left.add("motion of lights")
             self._mesh(prim, placed)
         else:
-            self._mesh(prim, placed)
+            self._mesh(prim, placed, self._motion.keys(prim))
 
     def _shown(
         self, root: Usd.Prim, kinds: Any, above: Usd.Prim | None
@@ -92,14 +96,18 @@ class Placing:
                 matrix = self._places.ComputeRelativeTransform(prim, above)[0]
             yield prim, np.array(matrix, np.float64).T
 
-    def _node(self, prim: Usd.Prim, matrix: Matrix, **more: Any) -> None:
+    def _node(
+        self, prim: Usd.Prim, matrix: Matrix, keys: Matrix | None = None, **more: Any
+    ) -> None:
         if len(self.nodes) >= _MOST_NODES:
             raise UnshownError(f"shows more than {_MOST_NODES:,} things")
         table: Table = {"name": prim.GetName(), **more}
         if not np.isfinite(matrix).all():
             self._left.add("things placed beyond all numbers")
             return
-        if not np.array_equal(matrix, np.eye(4)):
+        if keys is not None:
+            self._motion.start(table, len(self.nodes), keys)
+        elif not np.array_equal(matrix, np.eye(4)):
             table["matrix"] = matrix.T.ravel().tolist()
         self.nodes.append(table)
 
@@ -108,14 +116,14 @@ class Placing:
         if table is None:
             return
         count, lens = len(self.nodes), lens_table(prim, self._time, unit)
-        self._node(prim, matrix, camera=self._glb.add("cameras", table))
+        self._node(prim, matrix, self._motion.keys(prim), camera=self._glb.add("cameras", table))
         if len(self.nodes) > count:
             self.lenses[str(count)] = lens
 
-    def _mesh(self, prim: Usd.Prim, matrix: Matrix) -> None:
+    def _mesh(self, prim: Usd.Prim, matrix: Matrix, keys: Matrix | None = None) -> None:
         number = self._number(prim)
         if number is not None:
-            self._node(prim, matrix, mesh=number)
+            self._node(prim, matrix, keys, mesh=number)
 
     def _number(self, prim: Usd.Prim) -> int | None:
         """Return the number of a prim's mesh, which instances share; None if it has none."""
