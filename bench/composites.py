@@ -1,6 +1,7 @@
 """Renders next to each other, as pages of docs show them: composites of `bench.pictures`."""
 
 import re
+import tempfile
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -18,7 +19,6 @@ from glrt.lab.probes import CELL, WITHOUT, house
 from glrt.rendering.pipelines import Variant
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
-from glrt.scene.scenefile.toml import decode_scene
 
 DOCS = Path(__file__).parents[1] / "docs"
 GAP = 6  # pixels between pictures
@@ -169,7 +169,10 @@ def _built(code: str) -> Scene:
 
 
 def _decoded(text: str) -> Scene:
-    return decode_scene(text.encode(), "a page of docs")
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "scene.toml"
+        file.write_text(text, "utf-8")
+        return load(file)
 
 
 def _save_row(file: Path, cells: Sequence[tuple[Scene, dict[str, Any]]]) -> None:

@@ -140,7 +140,7 @@ def velvet(lab: Lab) -> Sweep:
     return _gained(lab, "roughness of sheen", looks, ways, 0.01)
 
 
-# A base that reflects all of its light, beside what it lets through.
+# A base that reflects all of its light, in addition to what it lets through.
 _UNSHARED = f"""{_COLORS}
     vec3 wi = next.direction;
     Principled it = principled_of(vertex.material);
