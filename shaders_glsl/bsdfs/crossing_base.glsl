@@ -4,7 +4,9 @@
 // The chance that a sample of the base crosses the surface.
 float crossing_chance(Principled it, Shares shares) {
     float all = mean_of(light_of_base(it, shares));
-    return all > 0.0 ? mean_of(it.through * shares.base) / all : 0.0;
+    if (all <= 0.0) return 0.0;
+    float chance = mean_of(it.through * shares.base) / all;
+    return chance;
 }
 
 // The factor by which layers above the base and the facets hold light back, on its way in and out.
