@@ -7,15 +7,18 @@ import pytest
 
 from glrt.core.errors import SceneError
 from glrt.scene.materials.dielectric import Dielectric
+from glrt.scene.materials.kinds import Material
 from glrt.scene.materials.lambertian import Lambertian
 from glrt.scene.materials.metal import Metal
+from glrt.scene.materials.principled import Principled
+from glrt.scene.materials.textures import Texture
 from glrt.scene.model_files.mtl import decode_mtl, material_of
 
 HALF = (0.5, 0.25, 0.125)
 _KD, _KS = "Kd 0.5 0.25 0.125\n", "Ks 0.5 0.25 0.125\n"
 ROUGH = math.sqrt(math.sqrt(2 / 102))  # of Ns 100
 
-MATERIALS = {
+MATERIALS: dict[str, Material] = {
     "": Lambertian(color=(0.8, 0.8, 0.8)),
     _KD: Lambertian(color=HALF),
     "Kd 0.5": Lambertian(color=(0.5, 0.5, 0.5)),
@@ -37,7 +40,10 @@ MATERIALS = {
     "d 0.5\nNi 1.33": Dielectric(ior=1.33),
     "Tr 0.5\nNi 1.33": Dielectric(ior=1.33),
     "d -halo 0.5\nNi 1.33\n" + _KD: Lambertian(color=HALF),
-    "d 0.5\nNi 1\n" + _KD: Lambertian(color=HALF),
+    "d 0.5\nNi 1\n" + _KD: Principled(color=HALF, specular=0, alpha=0.5),
+    "illum 4\nd 0.75\n" + _KD: Principled(color=HALF, specular=0, alpha=0.75),
+    "Tr 0.25\nNi 1.5\n" + _KD: Principled(color=HALF, specular=0, alpha=0.75),
+    "illum 4\nd 1\n" + _KD: Dielectric(ior=1.5),
     "d 1\nTr 0\nNi 1.45\n" + _KD: Lambertian(color=HALF),
 }
 
@@ -54,7 +60,50 @@ def test_what_is_left_out_is_named() -> None:
         "newmtl a\r\nKa 1 1 1\r\n\tmap_Kd wood.png\r\nKd 1 1 1\r\nKs 1 1 1\r\nd 0.5\r\nTf 1 1 1\r\n"
     )
     found = decode_mtl(text.encode("utf-8-sig"), "here")
-    assert material_of(found["a"])[1] == ["Tf", "d", "Ks"]
+    assert material_of(found["a"])[1] == ["Tf", "Ks"]
+
+
+OF_BLENDER: dict[str, tuple[Principled, list[str]]] = {
+    "": (Principled(color=(0.8,) * 3, roughness=0.5), []),
+    _KD + "Ns 490\nKs 0.5 0.5 0.5\nillum 2": (Principled(color=HALF, roughness=0.3), []),
+    "Ns 40\nKa 0.6 0.6 0.6\nillum 3": (Principled(metallic=0.6, roughness=0.8), []),
+    "Ns 1000\nKa 1 1 1\nillum 2": (Principled(roughness=0.0), []),
+    "Ks 0 0 0\nillum 1": (Principled(ior=1.0, specular=0.0, roughness=0.5), []),
+    "d 0.25\nillum 9\n" + _KD: (Principled(color=HALF, roughness=0.5, alpha=0.25), []),
+    "d 0\n" + _KD: (Principled(color=HALF, roughness=0.5), ["d"]),
+    "d 0.5\nKe 2 2 2": (Principled(roughness=0.5, emission=(2, 2, 2)), ["d"]),
+    "map_Kd a.png": (Principled(color=Texture(image="a.png", factor=(0.8,) * 3)), []),
+}
+
+
+@pytest.mark.parametrize("text", OF_BLENDER)
+def test_files_of_blender_mean_principled_materials(text: str) -> None:
+    """Ns is 1000 (1 - roughness)^2; a specular level Ks of 0.5 is an index of 1.5; Ka is metal."""
+    head = b"# Blender 3.6.1 MTL File: 'None'\n\nnewmtl a\nNi 1.45\n"
+    found, unread = material_of(decode_mtl(head + text.encode(), "here")["a"])
+    wanted, left_out = OF_BLENDER[text]
+    assert isinstance(found, Principled)
+    assert unread == left_out
+    assert found.color_map == wanted.color_map
+    assert found.emission == wanted.emission
+    for key in ("metallic", "roughness", "ior", "specular", "alpha"):
+        if not (key == "roughness" and "map_Kd" in text):
+            assert getattr(found, key) == pytest.approx(getattr(wanted, key), abs=1e-6), key
+
+
+def test_older_files_of_blender_are_read_as_others() -> None:
+    """Before 2.8 it wrote an index of 1, and Phong's exponent."""
+    text = b"# Blender MTL File: 'a.blend'\nnewmtl a\nNs 96.078431\nKd 0.64 0.64 0.64\nNi 1.000000"
+    found = decode_mtl(text, "here")["a"]
+    assert material_of(found)[0] == Lambertian(color=(0.64, 0.64, 0.64))
+
+
+def test_a_texture_of_what_is_there_in_part_stays() -> None:
+    found = decode_mtl(b"newmtl a\nd 0.75\nmap_Kd a.png", "here")["a"]
+    shown = material_of(found)[0]
+    assert isinstance(shown, Principled)
+    assert (shown.alpha, shown.specular) == (0.75, 0.0)
+    assert shown.color_map
 
 
 # A line, the material that it means, and what was left out.

@@ -14,6 +14,7 @@ from glrt.scene.materials.dielectric import Dielectric
 from glrt.scene.materials.kinds import Material
 from glrt.scene.materials.lambertian import Lambertian
 from glrt.scene.materials.metal import Metal
+from glrt.scene.materials.principled import Principled
 from glrt.scene.materials.textures import Texture
 from glrt.scene.model_files.text_lines import lines_of
 from glrt.scene.values import BLACK, LARGEST, WHITE, Color, Radiance
@@ -23,9 +24,12 @@ ROUNDING = 1e-3  # how far out of its range a value may be by rounding
 
 _COLORS = {"Kd": 1.0, "Ks": 1.0, "Ke": LARGEST}  # largest value of each key
 _NUMBERS = {"Ns": 1e9, "Ni": 10.0, "d": 1.0, "Tr": 1.0, "illum": 10.0, "Pr": 1.0, "Pm": 1.0}
-_SILENT = {"Ka"}  # the colour of ambient light, which has no meaning here
+_AMBIENT = "Ka"  # the colour of ambient light, which has a meaning in files of Blender alone
 _GLASS, _MIRRORS = (4, 6, 7, 9), (3, 5)  # models of `illum`
 _USUAL_IOR = 1.5  # where Ni is missing
+_CLEAR = 0.5  # opacity from which on a surface is no glass, but there in part
+_SHARPEST = 1000.0  # Ns that Blender writes for a roughness of 0
+_BRIGHTEST = 0.08  # reflectance head-on that Blender writes as a Ks of 1
 _LEAST_IOR = 1e-3
 _GREY = (0.8, 0.8, 0.8)  # where no colour is given
 _LONGEST_PATH = 500  # letters of the path of an image
@@ -52,6 +56,7 @@ class Entry:
     colors: dict[str, Radiance] = field(default_factory=dict)
     numbers: dict[str, float] = field(default_factory=dict)
     unread: dict[str, None] = field(default_factory=dict)
+    by_blender: bool = False  # whether the file says that Blender wrote it
     image: str = ""  # path of the diffuse colour's image, from the file
     placing: dict[str, tuple[float, ...]] = field(default_factory=dict)  # of the image: u or u, v
 
@@ -65,14 +70,15 @@ def decode_mtl(content: bytes, where: str) -> dict[str, Entry]:
     if len(content) > LONGEST:
         raise SceneError(f"{where}: this MTL file is larger than {LONGEST >> 20} MiB.")
     found: dict[str, Entry] = {}
-    entry, early = None, dict[str, None]()
+    entry, early, by_blender = None, dict[str, None](), False
     for line in lines_of(content):
         key, _, rest = _COMMENT.sub("", line).strip().partition(" ")
         if not key or key.startswith("#"):
+            by_blender |= "Blender" in line
             continue
         if key == "newmtl":
             name = _CONTROL.sub("", rest).strip()
-            entry, early = Entry(unread=early), {}
+            entry, early = Entry(unread=early, by_blender=by_blender), {}
             if name in found:
                 found[name].unread["another material of the same name"] = None
             elif name:
@@ -99,7 +105,10 @@ def _read(key: str, words: list[str], entry: Entry) -> None:
             entry.unread[key] = None
     elif key == "map_Kd":
         _read_image(words, entry)
-    elif key not in _SILENT:
+    elif key == _AMBIENT:
+        values = _in_range(key, words[:3], 1.0, Entry())
+        entry.numbers[key] = sum(values) / len(values) if values else 0.0
+    else:
         entry.unread[key] = None
 
 
@@ -145,27 +154,74 @@ def material_of(entry: Entry) -> tuple[Material, list[str]]:
     """Return the nearest material of a scene, and the keys that it leaves out."""
     colors, numbers, unread = entry.colors, entry.numbers, list(entry.unread)
     emission = colors.get("Ke", BLACK)
+    if entry.by_blender and numbers.get("Ni", 1.0) > 1:
+        return _of_blender(entry, emission, unread)
     if _is_glass(numbers):
         ior = numbers.get("Ni", 0.0)
         left_out = ["Ke"] if any(emission) else []
         return Dielectric(ior=ior if ior >= _LEAST_IOR else _USUAL_IOR), unread + left_out
-    if _opacity(numbers) < 1:
-        unread.append("d" if "d" in numbers else "Tr")
     gloss: Color = colors.get("Ks", BLACK)
     is_grey = not any(gloss) and not any(emission)
     diffuse: Color = colors.get("Kd", _GREY if is_grey else BLACK)
-    color: Color | Texture = diffuse
-    if entry.image:
-        factor = diffuse if any(diffuse) else WHITE  # many programs write 0 with an image
-        scale, offset = _placing(entry)
-        color = Texture(image=entry.image, factor=factor, scale=scale, offset=offset)
-    if numbers.get("Pm", 0.0) >= 0.5:
-        return Metal(color=color, roughness=_roughness(numbers), emission=emission), unread
-    if any(gloss) and (numbers.get("illum") in _MIRRORS or not (any(diffuse) or entry.image)):
-        return Metal(color=gloss, roughness=_roughness(numbers), emission=emission), unread
+    color = _color(entry, diffuse)
+    is_mirror = numbers.get("illum") in _MIRRORS or not (any(diffuse) or entry.image)
+    if (is_metal := numbers.get("Pm", 0.0) >= 0.5) or (any(gloss) and is_mirror):
+        unread += _transparency(numbers)
+        shown = color if is_metal else gloss
+        return Metal(color=shown, roughness=_roughness(numbers), emission=emission), unread
     if any(gloss):
         unread.append("Ks")
+    alpha = _alpha(numbers, emission, unread)
+    if alpha < 1:
+        return Principled(color=color, specular=0.0, alpha=alpha), unread
     return Lambertian(color=color, emission=emission), unread
+
+
+def _of_blender(entry: Entry, emission: Radiance, unread: list[str]) -> tuple[Material, list[str]]:
+    """Return the principled material that Blender 2.8 or newer wrote, by what its importer reads.
+
+    Ns is 1000 (1 - roughness)^2, Ks the specular level, Ka the metallic share where illum is 3.
+    """
+    numbers = entry.numbers
+    gloss = entry.colors.get("Ks", (0.5, 0.5, 0.5))
+    root = math.sqrt(_BRIGHTEST * sum(gloss) / 3)
+    sharp = min(numbers.get("Ns", _SHARPEST / 4) / _SHARPEST, 1.0)
+    alpha = _alpha(numbers, emission, unread)
+    made = Principled(
+        color=_color(entry, entry.colors.get("Kd", _GREY)),
+        metallic=numbers.get(_AMBIENT, 1.0) if numbers.get("illum") in _MIRRORS else 0.0,
+        roughness=1 - math.sqrt(sharp),
+        ior=(1 + root) / (1 - root),
+        specular=1.0 if any(gloss) else 0.0,
+        alpha=alpha,
+        emission=emission,
+    )
+    return made, unread
+
+
+def _color(entry: Entry, diffuse: Color) -> Color | Texture:
+    if not entry.image:
+        return diffuse
+    factor = diffuse if any(diffuse) else WHITE  # many programs write 0 with an image
+    scale, offset = _placing(entry)
+    return Texture(image=entry.image, factor=factor, scale=scale, offset=offset)
+
+
+def _alpha(numbers: dict[str, float], emission: Radiance, unread: list[str]) -> float:
+    """Return the share of a surface that is there; 1 for a lamp, and for one that would be gone.
+
+    Some programs write 0 for what is opaque.
+    """
+    alpha = _opacity(numbers)
+    if alpha == 0 or any(emission):
+        unread += _transparency(numbers)
+        return 1.0
+    return alpha
+
+
+def _transparency(numbers: dict[str, float]) -> list[str]:
+    """Return the key by which a surface is transparent, if one is there."""
+    return ["d" if "d" in numbers else "Tr"] if _opacity(numbers) < 1 else []
 
 
 def _placing(entry: Entry) -> tuple[tuple[float, float], tuple[float, float]]:
@@ -180,8 +236,10 @@ def _opacity(numbers: dict[str, float]) -> float:
 
 
 def _is_glass(numbers: dict[str, float]) -> bool:
-    is_clear = _opacity(numbers) < 1 and numbers.get("Ni", 0.0) > 1
-    return is_clear or numbers.get("illum") in _GLASS
+    opacity = _opacity(numbers)
+    if numbers.get("illum") in _GLASS:
+        return opacity <= _CLEAR or opacity == 1
+    return opacity <= _CLEAR and numbers.get("Ni", 0.0) > 1
 
 
 def _roughness(numbers: dict[str, float]) -> float:
