@@ -59,7 +59,7 @@ def glossy(file: Path) -> None:
 def denoised(file: Path) -> None:
     """Two rooms at 64 samples: plain, denoised, and the error that is left."""
     context, found = open_context(), []
-    for name in ("cornell", "methods/gap"):
+    for name in ("cornell", "methods/caustic"):
         options: Any = {"width": 384, "height": 384, "samples": 64, "denoise": "nlm"}
         renderer = Renderer(load(name), None, context, "baked", **options)
         image = renderer.render().image()
