@@ -16,6 +16,14 @@ pytest.importorskip("pxr", reason="usd-core is not installed")
 SPAN = "startTimeCode = 1\nendTimeCode = 25\ntimeCodesPerSecond = 24"  # a second
 
 
+WEDGE = """
+    int[] faceVertexCounts = [3]
+    int[] faceVertexIndices = [0, 1, 2]
+    point3f[] points = [(0, 0, 0), (2, 0, 0), (0, 0, -1)]
+    uniform token subdivisionScheme = "none"
+"""
+
+
 def moving(kind: str, name: str, *samples: tuple[float, str]) -> str:
     """A transform by samples: time code and value each."""
     pairs = "\n".join(f"{code}: {value}," for code, value in samples)
@@ -54,12 +62,13 @@ def test_a_whole_turn_between_two_samples_keeps_its_way(tmp_path: Path) -> None:
 
 def test_children_move_with_their_parents_and_upright_in_metres(tmp_path: Path) -> None:
     """In a file of centimetres with z up, mirrored within; what stands still has no keys."""
-    inner = square(more=placed(("float3", "scale", "(-1, 1, 1)")))
+    corners = np.array([(0, 0, 0), (2, 0, 0), (0, 0, -1)], np.float64)
+    inner = prim("Mesh", "wedge", WEDGE + placed(("float3", "scale", "(-1, 1, 1)")))
     still = prim("Xform", "still", square(more=placed(("double3", "translate", "(0, 0, 9)"))))
     text = prim("Xform", "top", SLIDE + inner) + still
     scene = scene_of(tmp_path, layer(text, "Z", 0.01, SPAN))
     for moment, place in ((0.0, (0, 0, 0)), (0.5, (4, 0, 0)), (1.0, (4, 2, 0))):
-        parts = [np.add(POINTS * (-1, 1, 1), place), np.add(POINTS, (0, 0, 9))]
+        parts = [np.add(corners * (-1, 1, 1), place), np.add(POINTS, (0, 0, 9))]
         expected = [0.01 * part @ [[1, 0, 0], [0, 0, -1], [0, 1, 0]] for part in parts]
         assert same_places(posed(scene, moment), *expected)
 
