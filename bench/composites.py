@@ -99,7 +99,7 @@ def reuse(file: Path) -> None:
 
 
 def models(file: Path) -> None:
-    """Bare models as they are shown, and two scenes of meshes."""
+    """A bare model as it is shown, and two scenes of meshes."""
     frame = {"width": 384, "height": 288, "samples": 256, "denoise": "auto"}
     scenes = "cow.glb", "spot", "methods/mesh"
     folder = DOCS.parent / "scenes" / "models"
@@ -112,9 +112,9 @@ def leaks(file: Path) -> None:
     scene, context = house(WALL, 1), open_context()
     way: dict[str, Any] = {"width": 200, "height": 150, "samples": 256, "exposure": DARKROOM}
     by_probes = {**way, "method": "ddgi", "sampler": "sobol"}
-    unbiased = Variant({"WITHOUT_BIAS": True})
+    without_bias = Variant({"WITHOUT_BIAS": True})
     row = [
-        *(rendered(context, scene, it, **by_probes) for it in (WITHOUT, unbiased)),
+        *(rendered(context, scene, it, **by_probes) for it in (WITHOUT, without_bias)),
         rendered(context, scene, **by_probes),
         rendered(context, scene, **way),
     ]
