@@ -176,7 +176,6 @@ def test_a_scene_asks_for_the_lobes_that_it_uses() -> None:
         ({"clearcoat": "full"}, "clearcoat"),
         ({"clearcoat_roughness": 2}, "clearcoat_roughness"),
         ({"sheen": 1}, "sheen"),
-        ({"diffuse_transmission": 2}, "diffuse_transmission"),
     ],
 )
 def test_what_cannot_be_is_refused(keys: dict[str, Any], said: str) -> None:

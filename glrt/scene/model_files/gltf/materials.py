@@ -199,12 +199,7 @@ def _layers(
     if any(fibres):
         look.table["sheen"] = fibres
         look.table["sheen_roughness"] = value(cloth, "sheenRoughnessFactor", 0)
-    leaf = own("diffuse_transmission")
-    if through := value(leaf, "diffuseTransmissionFactor", 0):
-        key = "diffuseTransmissionColorFactor"
-        tint = look.numbers(leaf.get(key, [1, 1, 1]), 3, f"{here}: {key}")
-        look.table["diffuse_transmission"] = through
-        look.table["diffuse_transmission_color"] = tint
+    _read_leaf(look, own("diffuse_transmission"), here)
     if transmission:
         image = textures.table(crossed.get("transmissionTexture"), f"{here}: transmissionTexture")
         factor = {**image, "channel": "r", "factor": transmission} if image else transmission
@@ -212,6 +207,15 @@ def _layers(
         if spread := value(own("dispersion"), "dispersion", 0, 10):
             look.table["dispersion"] = spread
         _fit_glass(look)
+
+
+def _read_leaf(look: Look, given: dict[str, Any], here: str) -> None:
+    """Read how much light a matte base lets through, and its colour."""
+    share, color = "diffuseTransmissionFactor", "diffuseTransmissionColorFactor"
+    if through := look.number(given.get(share, 0), f"{here}: {share}", 1.0):
+        look.table["diffuse_transmission"] = through
+        tint = look.numbers(given.get(color, [1, 1, 1]), 3, f"{here}: {color}")
+        look.table["diffuse_transmission_color"] = tint
 
 
 def _fit_glass(look: Look) -> None:
