@@ -44,6 +44,10 @@ class ContentError(ValueError):
     """
 
 
+class NothingShownError(ContentError):
+    """A file of a model is whole, and shows no triangles; the message says why."""
+
+
 def of_content(error: Exception) -> str:
     """Return the mistake in a file that has caused an error, without a full stop."""
     if isinstance(error, ContentError):

@@ -5,12 +5,12 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import PurePosixPath
 
-from glrt.core.errors import ContentError, SceneError, of_content
+from glrt.core.errors import ContentError, NothingShownError, SceneError, of_content
 from glrt.core.text import quoted
 from glrt.scene.meshes.checked_meshes import of_file
 from glrt.scene.meshes.triangle_meshes import TriangleMesh
 from glrt.scene.model_files.gltf.animations import Poses
-from glrt.scene.model_files.gltf.document import Document, LacksExtensionError, NothingShownError
+from glrt.scene.model_files.gltf.document import Document, LacksExtensionError
 from glrt.scene.model_files.gltf.draco import NotInstalledError
 from glrt.scene.model_files.gltf.primitives import mesh_of
 from glrt.scene.model_files.obj import read_obj
@@ -58,10 +58,9 @@ def decode_mesh(
     except LacksExtensionError as error:
         advice = "Export it without, or convert it by a program that reads it"
         raise SceneError(f"{where}: {quoted(path)} {error}. {advice}.") from None
-    except NothingShownError:
+    except NothingShownError as error:
         raise SceneError(
-            f"{where}: {quoted(path)} shows no triangles: no node of its scene has a mesh of them. "
-            "Export it with its meshes."
+            f"{where}: {quoted(path)} shows no triangles: {error}. Export it with its meshes."
         ) from None
     except MemoryError:
         problem = "it says that it is larger than the memory"

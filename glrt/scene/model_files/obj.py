@@ -8,7 +8,7 @@ from itertools import chain, repeat
 import numpy as np
 from numpy.typing import NDArray
 
-from glrt.core.errors import ContentError
+from glrt.core.errors import ContentError, NothingShownError
 from glrt.core.text import counted, quoted
 from glrt.scene.images.codes import decode_srgb
 from glrt.scene.meshes.checked_meshes import MeshArrays
@@ -60,7 +60,7 @@ def read_obj(content: bytes) -> tuple[MeshArrays, tuple[str, ...]]:
     }
     words, faces, unread = _faces_of(lines.get("f", empty))
     if not words:
-        raise ContentError("it has no faces")
+        raise (NothingShownError if len(table["v"]) else ContentError)("it has no faces")
     counts = np.fromiter(map(len, words), np.int64, len(words))
     corners, missing = _corners(words, faces, lines, table)
     unread += missing

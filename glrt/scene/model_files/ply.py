@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from glrt.core.errors import ContentError
+from glrt.core.errors import ContentError, NothingShownError
 from glrt.core.text import counted
 from glrt.scene.images.codes import decode_srgb
 from glrt.scene.meshes.checked_meshes import MeshArrays
@@ -82,7 +82,7 @@ def _faces(tables: dict[str, Columns]) -> tuple[Ints, Ints, Floats | None, list[
     if lists is None:
         strip = next((c for c in strips.values() if isinstance(c, Ragged)), None)
         if strip is None:
-            raise ContentError("it has no faces with a list of vertex_indices")
+            raise NothingShownError("it has no faces with a list of vertex_indices")
         corners = _of_strips(strip.values.astype(np.int64))
         return corners.ravel(), np.full(len(corners), 3), None, []
     corners, counts = lists.values.astype(np.int64), lists.counts

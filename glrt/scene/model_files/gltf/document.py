@@ -56,13 +56,6 @@ class LacksExtensionError(ContentError):
     """A file requires an extension that glrt does not read; the message names it."""
 
 
-class NothingShownError(ContentError):
-    """A file is whole, and shows no triangles."""
-
-    def __init__(self) -> None:
-        super().__init__("it shows no triangles")
-
-
 class Document:
     """A glTF file; mistakes in it raise ValueError, which says where."""
 

@@ -6,12 +6,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from glrt.core.errors import ContentError
+from glrt.core.errors import ContentError, NothingShownError
 from glrt.scene.meshes.checked_meshes import MeshArrays, of_file
 from glrt.scene.meshes.triangle_meshes import MOST_TRIANGLES, NO_MATERIAL, TriangleMesh
 from glrt.scene.model_files.gltf.accessors import Floats, Ints
 from glrt.scene.model_files.gltf.attributes import Attributes, weights_of
-from glrt.scene.model_files.gltf.document import Document, NothingShownError
+from glrt.scene.model_files.gltf.document import Document
 from glrt.scene.model_files.gltf.nodes import Matrix, Placed, placed_nodes
 from glrt.scene.model_files.gltf.skins import skin_matrices
 from glrt.scene.model_files.gltf.variants import Choices, choices_of, variant_names
@@ -59,7 +59,7 @@ def mesh_of(document: Document, changes: Mapping[int, Mapping[str, Any]] = {}) -
             shown.append(found)
             room -= found.faces.shape[0] * found.faces.shape[1]
     if not shown:
-        raise NothingShownError
+        raise NothingShownError("no node of its scene has a mesh of them")
     joined, kinds = _joined(shown)
     names = [*material_names(document), NO_MATERIAL]  # the last one for None
     looks = [[names[-1 if k is None else k] for k in (it.usual, *it.varied)] for it in kinds]
