@@ -1,17 +1,19 @@
-"""The sheets of charts in docs/results/stress.md: `python -m bench.stress_sheets [-o DIR]`.
+"""The sheets of charts in docs/results/stress.md: `python -m bench.stress_sheets [NAME...]`.
 
 All cases of `glrt stress` are run once, in some 20 minutes on two cores. Each sheet shows the
 cases from one on, up to the first of the next sheet.
 """
 
 import argparse
+import io
 import sys
+import tempfile
 import time
 from collections.abc import Iterator
 from itertools import pairwise
 from pathlib import Path
 
-from bench.contact_sheet import MOST_BYTES
+from bench.contact_sheet import MOST_BYTES, write_bytes
 from bench.program import exit_code_of, parser_of
 from glrt.analysis.plot import save_sheet
 from glrt.core.errors import RenderError
@@ -20,12 +22,15 @@ from glrt.lab import report
 from glrt.lab.cases import CASES
 from glrt.lab.sweep import Case, Finding, Lab
 
+COLORS = (255, 128, 64, 32)  # of a file: the most that make it small enough
 FIRST = {"stress": "distance", "stress-more": "denoised", "stress-third": "sun"}  # case, by sheet
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Write the sheets and print the table; returns the exit code."""
     parser = parser_of("stress_sheets", __doc__)
+    told = f"sheets, default: {', '.join(FIRST)}"
+    parser.add_argument("names", nargs="*", choices=[[], *FIRST], metavar="NAME", help=told)
     parser.add_argument("-o", dest="folder", type=Path, default=Path("docs/pictures"))
     parser.add_argument("--quick", action="store_true", help="an eighth of the samples")
     return exit_code_of(lambda: _run(parser.parse_args(arguments)))
@@ -39,15 +44,32 @@ def cases_of_sheets() -> Iterator[tuple[str, list[Case]]]:
         yield name, [CASES[case] for case in order[start:end]]
 
 
+def write_small(file: Path, drawn: Path) -> None:
+    """Write a PNG file again with so few colours that docs may hold it; RenderError if none do."""
+    from PIL import Image
+
+    with Image.open(drawn) as sheet:
+        plain = sheet.convert("RGB")
+    for colors in COLORS:
+        encoded = io.BytesIO()
+        plain.quantize(colors, dither=Image.Dither.NONE).save(encoded, "PNG", optimize=True)
+        if len(encoded.getvalue()) < MOST_BYTES:
+            write_bytes(file, encoded.getvalue())
+            return
+    raise RenderError(f"{file} has more than {MOST_BYTES} bytes. Show fewer cases in it.")
+
+
 def _run(parsed: argparse.Namespace) -> None:
     context, findings = open_context("auto", "compute"), []
     lab = Lab(context, 0.125 if parsed.quick else 1.0, None)
     for name, cases in cases_of_sheets():
+        if parsed.names and name not in parsed.names:
+            continue
         found = [_finding(case, lab) for case in cases]
-        file = parsed.folder / f"{name}.png"
-        save_sheet([finding.small_chart() for finding in found], file, report.title(found))
-        if file.stat().st_size > MOST_BYTES:
-            raise RenderError(f"{file} has more than {MOST_BYTES} bytes. Show fewer cases in it.")
+        with tempfile.TemporaryDirectory() as folder:
+            drawn = Path(folder) / "sheet.png"
+            save_sheet([finding.small_chart() for finding in found], drawn, report.title(found))
+            write_small(parsed.folder / f"{name}.png", drawn)
         findings += found
     print(report.table(findings, context.renderer))
     context.gl.release()

@@ -11,7 +11,7 @@ from bench.composites import DOCS, One, code_of, leaks
 from bench.contact_sheet import MOST_BYTES
 from bench.pictures import RECIPES, main, make
 from bench.sheets import in_rows, write_sheet
-from bench.stress_sheets import cases_of_sheets
+from bench.stress_sheets import cases_of_sheets, write_small
 from glrt.core.errors import RenderError, UsageError
 from glrt.lab.cases import CASES
 
@@ -100,6 +100,20 @@ def test_a_sheet_that_is_too_large_is_refused(tmp_path: Path) -> None:
     with pytest.raises(RenderError, match="has more than 300000 bytes"):
         write_sheet(tmp_path / "a.png", noise)
     assert not [*tmp_path.iterdir()]
+
+
+def test_a_sheet_of_charts_gets_as_few_colors_as_it_must(tmp_path: Path) -> None:
+    noise = np.random.default_rng(1).integers(0, 256, (800, 800, 3), np.uint8)
+    drawn, file = tmp_path / "drawn.png", tmp_path / "a.png"
+    for edge, most in ((100, 255), (640, 64)):
+        Image.fromarray(noise[:edge, :edge]).save(drawn)
+        write_small(file, drawn)
+        with Image.open(file) as small:
+            assert len(small.getcolors(256) or []) <= most
+            assert small.size == (edge, edge)
+    Image.fromarray(noise).save(drawn)
+    with pytest.raises(RenderError, match="has more than 300000 bytes"):
+        write_small(file, drawn)
 
 
 @pytest.mark.slow
