@@ -1,8 +1,8 @@
-"""Ready-made materials of the window: common metals, glasses, plastics and paints.
+"""Ready-made materials of the window: common metals, glasses, plastics, paints and paper.
 
 Indices of refraction are those of the sodium line, 589 nm, at room temperature: water 1.333, ice
 1.309, crown glass 1.523, acrylic 1.491, sapphire 1.768, diamond 2.417 (Born and Wolf, "Principles
-of Optics"; Hecht, "Optics"). Roughness and colours of plastics and paints are chosen by eye.
+of Optics"; Hecht, "Optics"). Roughness and colours of the others are chosen by eye.
 """
 
 from typing import Any
@@ -36,6 +36,17 @@ READY: dict[str, Material] = {
     "rubber": Principled(color=(0.03, 0.03, 0.03), roughness=0.75),
     "car paint, red": Principled(color=(0.6, 0.03, 0.03), **_PAINT),
     "car paint, blue": Principled(color=(0.03, 0.1, 0.45), **_PAINT),
+    "paper": Principled(
+        color=(0.75, 0.73, 0.7),
+        specular=0.0,
+        diffuse_transmission=0.4,
+        diffuse_transmission_color=(0.9, 0.85, 0.75),
+    ),
+    "leaf": Principled(
+        color=(0.08, 0.25, 0.04),
+        diffuse_transmission=0.5,
+        diffuse_transmission_color=(0.4, 0.7, 0.1),
+    ),
     "white wall": Lambertian(color=(0.8, 0.8, 0.8)),
     "grey card": Lambertian(color=(0.18, 0.18, 0.18)),
 }
