@@ -1,5 +1,6 @@
 # Each command makes what it needs first: system libraries, then the environment .venv.
 # PYTHON is the interpreter of the environment; ARGS goes to pytest: make test ARGS="-k furnace"
+# It also names pictures: make pictures ARGS=drink
 # SCENE is what `make view` shows: a scene file, a name of one in scenes/, or a picture.
 PYTHON ?= python3
 ARGS ?=
@@ -45,7 +46,7 @@ gallery: ## render every scene into gallery/
 
 pictures: ## write all pictures in docs/pictures/; takes an hour
 	@$(BOOTSTRAP) bench
-	$(IN_ENVIRONMENT) bench.pictures
+	$(IN_ENVIRONMENT) bench.pictures $(ARGS)
 
 bench: ## measure how fast the kernel, its variants and the window are, and other renderers
 	@$(BOOTSTRAP) bench
