@@ -244,11 +244,12 @@ class Temporal:
 
     def release(self) -> None:
         """Release all OpenGL resources."""
-        self._pass.release()
-        for surfaces in self._surfaces:
-            surfaces.release()
-        if self._resolver:
-            self._resolver.release()
+        with self._gl:
+            self._pass.release()
+            for surfaces in self._surfaces:
+                surfaces.release()
+            if self._resolver:
+                self._resolver.release()
 
     def _find(self, renderer: Renderer) -> None:
         self._check(renderer)
