@@ -15,6 +15,7 @@ from glrt.core.errors import UsageError
 from glrt.error.estimate import DARK
 from glrt.gpu.context import Context, open_context
 from glrt.image.sources import load
+from glrt.image.tonemap import expose_and_encode
 from glrt.lab.probes import CELL, WITHOUT, house
 from glrt.rendering.pipelines import Variant
 from glrt.rendering.renderer import Renderer
@@ -69,11 +70,9 @@ def denoised(file: Path) -> None:
         squares = np.square(filtered.error_map).mean(axis=-1)
         left = np.sqrt(squares / (level + DARK * level.mean())) / WORST
         grey = np.round(255 * np.minimum(left, 1.0)).astype(np.uint8)
-        found += [
-            rendered(context, load(name), width=384, height=384, samples=64),
-            rendered(context, load(name), **options),
-            np.repeat(grey[..., None], 3, axis=2),
-        ]
+        way = renderer.settings.exposure, renderer.settings.tonemap
+        shown = (expose_and_encode(it, *way) for it in (image.radiance, filtered.radiance))
+        found += [*shown, np.repeat(grey[..., None], 3, axis=2)]
     context.gl.release()
     save_sheet(found, file)
 

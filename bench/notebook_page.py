@@ -65,10 +65,10 @@ def _cut(file: Path, box: list[float]) -> bytes:
     """The part of a screenshot that shows a cell, encoded."""
     from PIL import Image
 
-    left, top, width, height = box
-    frame = left - MARGIN, top - MARGIN, left + width + MARGIN, top + height + MARGIN
+    left, top, width, height = map(round, box)
+    ends = left + width + MARGIN, top + height + MARGIN
     encoded = io.BytesIO()
     with Image.open(file) as page:
-        cut = page.convert("RGB").crop([round(max(it, 0)) for it in frame])  # type: ignore[arg-type]
+        cut = page.convert("RGB").crop((max(left - MARGIN, 0), max(top - MARGIN, 0), *ends))
         cut.save(encoded, "WEBP", quality=80, method=6)
     return encoded.getvalue()
