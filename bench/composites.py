@@ -125,7 +125,8 @@ def leaks(file: Path) -> None:
 class One:
     """The picture of one scene: one that comes with glrt, or one whose code a page of docs shows.
 
-    The code is TOML, or Python that ends with `glrt.render(scene, ...)`; its block holds `marker`.
+    The code is TOML, MaterialX, or Python that ends with `glrt.render(scene, ...)`; its block holds
+    `marker`.
     """
 
     source: str  # name of a scene, or page of docs
@@ -138,6 +139,8 @@ class One:
         if not self.marker:
             return load(self.source)
         code = code_of(self.source, self.marker)
+        if code.startswith("<?xml"):
+            return _of_document(code)
         return _built(code) if "import glrt" in code else _decoded(code)
 
     def __call__(self, file: Path) -> None:
@@ -158,6 +161,13 @@ def code_of(page: str, marker: str) -> str:
         if marker in code:
             return str(code)
     raise UsageError(f"docs/{page} has no code with {marker!r}. Restore it, or its entry here.")
+
+
+def _of_document(code: str) -> Scene:
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "looks.mtlx"
+        file.write_text(code, "utf-8")
+        return load(file)
 
 
 def _built(code: str) -> Scene:

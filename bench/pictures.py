@@ -109,6 +109,9 @@ RECIPES: dict[str, Recipe] = {
     "glossy.jpg": glossy,
     "leaks.png": leaks,
     "leaves.jpg": One(_PRINCIPLED, "# leaves.toml", {**_SPHERES, "samples": 512}),
+    "materialx.jpg": One(
+        "how-to/materialx.md", "<materialx ", {"width": 720, "height": 500, "samples": 512}
+    ),
     "models.jpg": models,
     "notebook.webp": notebook,
     "orbital.jpg": One(

@@ -14,8 +14,8 @@ from glrt.scene.warnings import cautions
 from glrt.settings import settings_for
 
 DESCRIPTION = (
-    "Write the scene of a model (.glb, .gltf, .obj, .ply, .stl, .usd, .usda, .usdc or .usdz) as a "
-    "scene file."
+    "Write the scene of a model (.glb, .gltf, .obj, .ply, .stl, .usd, .usda, .usdc, .usdz or "
+    ".mtlx) as a scene file."
 )
 EPILOG = (
     "The scene has a mesh for each material of the model, its camera and lights or usual ones, and "
@@ -44,7 +44,7 @@ def run(arguments: argparse.Namespace) -> int:
     if not is_model(Path(arguments.model)):
         raise UsageError(
             f"{arguments.model} is no model: its name must end in "
-            ".glb, .gltf, .obj, .ply, .stl, .usd, .usda, .usdc or .usdz."
+            ".glb, .gltf, .obj, .ply, .stl, .usd, .usda, .usdc, .usdz or .mtlx."
         )
     rules = {"allow_outside": arguments.allow_outside, "variant": arguments.variant}
     scene = load(find(arguments.model), **rules)

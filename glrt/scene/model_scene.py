@@ -17,10 +17,10 @@ from glrt.scene.loading.file_contents import with_content
 from glrt.scene.loading.scene_files import with_files
 from glrt.scene.materials.lambertian import Lambertian
 from glrt.scene.meshes.triangle_meshes import Poses, TriangleMesh
+from glrt.scene.model_files.conversion.document import ConvertedDocument
 from glrt.scene.model_files.gltf.cameras import FileCamera, camera_of, left_out
 from glrt.scene.model_files.gltf.lights import is_lit, lights_of
 from glrt.scene.model_files.mesh_formats import AS_GLTF, FORMATS
-from glrt.scene.model_files.usd.document import UsdDocument
 from glrt.scene.scene import Scene
 from glrt.scene.schema.validation import validated
 from glrt.scene.shapes.mesh import Mesh
@@ -116,13 +116,13 @@ def _add_stage(
         document = Beside(asset, reader, source).document()
         lights = (
             document.lights(asset.path)
-            if isinstance(document, UsdDocument)
+            if isinstance(document, ConvertedDocument)
             else lights_of(document, _ball(mesh)[1])
         )
         camera = camera_of(document)
         if camera:
             _add_camera(tables, *camera)
-        if camera and isinstance(document, UsdDocument):
+        if camera and isinstance(document, ConvertedDocument):
             tables["camera"] |= document.lens(camera[1].chain[-1][0])
     except ValueError as error:
         raise SceneError(f"{source}: {of_content(error)}. Export the file again.") from None

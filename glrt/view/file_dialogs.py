@@ -123,9 +123,9 @@ class FileBrowser:
 PROGRAMS = ("zenity", "kdialog", "matedialog", "qarma")  # programs that draw dialogs on Linux
 SCENES = [
     "Scenes, models, pictures and images of the sky",
-    "*.toml *.glb *.gltf *.obj *.ply *.stl *.usd *.usda *.usdc *.usdz *.png *.exr *.hdr",
+    "*.toml *.glb *.gltf *.obj *.ply *.stl *.usd *.usda *.usdc *.usdz *.mtlx *.png *.exr *.hdr",
 ]
-MODELS = ["Models", "*.glb *.gltf *.obj *.ply *.stl *.usd *.usda *.usdc *.usdz"]
+MODELS = ["Models", "*.glb *.gltf *.obj *.ply *.stl *.usd *.usda *.usdc *.usdz *.mtlx"]
 GRIDS = ["Grids of densities", " ".join(f"*{suffix}" for suffix in SUFFIXES)]
 PHOTOS = ["Images of radiance", "*.hdr *.exr"]
 SCENE = ["Scene", "*.toml"]

@@ -1,6 +1,7 @@
 """USD files as files: layers, packages, damage, and without usd-core."""
 
 import random
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +10,7 @@ import pytest
 import glrt
 from glrt.core.errors import SceneError
 from glrt.scene.loading.scene_files import hashes_of
-from glrt.scene.model_files.usd import process
+from glrt.scene.model_files.conversion import process
 from tests.support.gltf_files import COLORS, png
 from tests.support.usd_files import (
     COORDINATES,
@@ -132,7 +133,8 @@ def test_a_reader_that_crashes_leaves_a_message(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Without words of the library."""
-    monkeypatch.setattr(process, "_MODULE", "this_module_is_not_there")
+    usd = replace(process.LIBRARIES[0], module="this_module_is_not_there")
+    monkeypatch.setattr(process, "LIBRARIES", (usd,))
     with pytest.raises(SceneError, match=r"is damaged, or no USD file\. Export it again\.$"):
         scene_of(tmp_path, layer(square()))
 

@@ -1,12 +1,12 @@
-"""Files that a file names by their paths from it; glTF and USD files, each parsed once."""
+"""Files that a file names by their paths from it; glTF and converted files, each parsed once."""
 
 from glrt.core.errors import SceneError
 from glrt.core.text import quoted
 from glrt.scene.files.assets import Asset, AssetReader, folder_of
 from glrt.scene.files.path_text import name_of
+from glrt.scene.model_files.conversion.document import ConvertedDocument
+from glrt.scene.model_files.conversion.process import ConversionError, library_of
 from glrt.scene.model_files.gltf.document import Document
-from glrt.scene.model_files.usd.document import UsdDocument
-from glrt.scene.model_files.usd.process import ConversionError, is_usd
 
 
 class Beside:
@@ -34,7 +34,7 @@ class Beside:
     def document(self) -> Document:
         """Return the asset as a glTF file, parsed once for a reader; ValueError for mistakes.
 
-        A USD file is converted; `SceneError` if it cannot be.
+        A USD or MaterialX file is converted; `SceneError` if it cannot be.
         """
         made = self._reader.made
         if self._asset.path not in made:
@@ -46,10 +46,11 @@ class Beside:
 
     def _parsed(self) -> Document:
         path, folder = self._asset.path, self._reader.folder
-        if not is_usd(path):
+        library = library_of(path)
+        if library is None:
             return Document(self._asset.content, self)
         try:
             file = folder.base / name_of(path)
-            return UsdDocument(file, folder.base, folder.allow_outside, self)
+            return ConvertedDocument(library, file, folder.base, folder.allow_outside, self)
         except ConversionError as error:
             raise SceneError(f"{self._where}: {quoted(path)} {error}.") from None

@@ -15,6 +15,7 @@ from glrt.scene.materials.dielectric import Dielectric
 from glrt.scene.materials.kinds import Material
 from glrt.scene.materials.principled import Principled
 from glrt.scene.meshes.triangle_meshes import NO_MATERIAL
+from glrt.scene.model_files.conversion.document import ConvertedDocument
 from glrt.scene.model_files.gltf.materials import (
     Look,
     dye_unlit,
@@ -24,7 +25,6 @@ from glrt.scene.model_files.gltf.materials import (
 )
 from glrt.scene.model_files.mtl import Entry, decode_mtl, material_of
 from glrt.scene.model_files.obj import libraries
-from glrt.scene.model_files.usd.document import UsdDocument
 from glrt.scene.schema.validation import validated
 from glrt.scene.shapes.mesh import Mesh
 
@@ -100,7 +100,7 @@ def of_gltf(shape: Mesh, reader: AssetReader, where: str) -> Found:
     own, unread = dict[str, Material](), list[str]()
     try:
         document = Beside(asset, reader, where).document()
-        if isinstance(document, UsdDocument):
+        if isinstance(document, ConvertedDocument):
             looks = document.looks(asset.path)
             unread += document.left_out
         else:

@@ -1,4 +1,4 @@
-"""Files of models: glTF, USD, OBJ, PLY and STL.
+"""Files of models: glTF, USD, MaterialX, OBJ, PLY and STL.
 
 Modules, each importing only what stands above it:
 
@@ -6,7 +6,10 @@ Modules, each importing only what stands above it:
 - gltf: glTF files
 - text_lines: lines and numbers of files in text
 - polygons: polygons, divided into triangles
+- conversion: files that a library reads in a process of its own
+- networks: networks of nodes, which give materials
 - usd: USD files
+- materialx: MaterialX files
 - obj: OBJ files
 - ply_header: headers of PLY files
 - ply_tables: tables of PLY files

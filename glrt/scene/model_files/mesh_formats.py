@@ -1,4 +1,4 @@
-"""Read files of triangle meshes as arrays: PLY, OBJ, STL, glTF and USD."""
+"""Read files of triangle meshes as arrays: PLY, OBJ, STL, glTF, USD and MaterialX."""
 
 import warnings
 from collections.abc import Callable
@@ -9,6 +9,7 @@ from glrt.core.errors import ContentError, NothingShownError, SceneError, of_con
 from glrt.core.text import quoted
 from glrt.scene.meshes.checked_meshes import of_file
 from glrt.scene.meshes.triangle_meshes import TriangleMesh
+from glrt.scene.model_files.conversion.process import SUFFIXES
 from glrt.scene.model_files.gltf.animations import Poses
 from glrt.scene.model_files.gltf.document import Document, LacksExtensionError
 from glrt.scene.model_files.gltf.draco import NotInstalledError
@@ -16,10 +17,9 @@ from glrt.scene.model_files.gltf.primitives import mesh_of
 from glrt.scene.model_files.obj import read_obj
 from glrt.scene.model_files.ply import read_ply
 from glrt.scene.model_files.stl import read_stl
-from glrt.scene.model_files.usd.process import SUFFIXES
 
 GLTF = (".glb", ".gltf")
-AS_GLTF = (*GLTF, *SUFFIXES)  # have materials, cameras and lights; USD files are converted to glTF
+AS_GLTF = (*GLTF, *SUFFIXES)  # have materials, cameras and lights; the others are converted
 FORMATS = (".ply", ".obj", ".stl", *AS_GLTF)
 _LONGEST = 200  # letters of a problem in a message
 Fetch = Callable[[str], bytes]  # the content of a file by its path from this one
@@ -43,7 +43,8 @@ def decode_mesh(
     if suffix not in FORMATS:
         raise SceneError(
             f"{where}: {quoted(path)} is no file of a mesh that glrt reads, which end in .glb, "
-            ".gltf, .obj, .ply, .stl, .usd, .usda, .usdc or .usdz. Convert it to one of them."
+            ".gltf, .obj, .ply, .stl, .usd, .usda, .usdc, .usdz or .mtlx. Convert it to one of "
+            "them."
         )
     try:
         with warnings.catch_warnings():

@@ -8,7 +8,7 @@ from glrt.core.resources import folder
 from glrt.core.text import unknown
 
 PICTURES = (".exr", ".png")
-MODELS = (".glb", ".gltf", ".obj", ".ply", ".stl", ".usd", ".usda", ".usdc", ".usdz")
+MODELS = (".glb", ".gltf", ".obj", ".ply", ".stl", ".usd", ".usda", ".usdc", ".usdz", ".mtlx")
 
 
 def scene_names() -> list[str]:

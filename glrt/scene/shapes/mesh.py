@@ -35,13 +35,14 @@ class Mesh(Sided):
 
     shape: Literal["mesh"] = Field("mesh", description="the kind of shape")
     file: NamedMesh = Field(
-        description="path of a model, .glb, .gltf, .obj, .ply, .stl, .usd, .usda, .usdc or .usdz"
+        description="path of a model, .glb, .gltf, .obj, .ply, .stl, .usd, .usda, .usdc, .usdz or "
+        ".mtlx"
     )
     material: str = Field(
         "",
         pattern=r"^[^\x00-\x1f\x7f]*$",
-        description="name of one of the materials; default: those of the file, which OBJ, glTF and "
-        "USD files have",
+        description="name of one of the materials; default: those of the file, which OBJ, glTF, "
+        "USD and MaterialX files have",
     )
     part: Name | None = Field(
         None,

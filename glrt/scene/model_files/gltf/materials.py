@@ -206,7 +206,7 @@ def _layers(
         look.table["transmission"] = factor
         if spread := value(own("dispersion"), "dispersion", 0, 10):
             look.table["dispersion"] = spread
-        _fit_glass(look)
+        fit_glass(look)
 
 
 def _read_leaf(look: Look, given: dict[str, Any], here: str) -> None:
@@ -218,9 +218,9 @@ def _read_leaf(look: Look, given: dict[str, Any], here: str) -> None:
         look.table["diffuse_transmission_color"] = tint
 
 
-def _fit_glass(look: Look) -> None:
+def fit_glass(look: Look) -> None:
     """Leave out what glass of a scene cannot be combined with."""
-    if look.table["clearcoat"]:
+    if look.table.get("clearcoat"):
         _leave_out(look, "clearcoat", "clearcoat over transmission")
     if look.table.get("anisotropy"):
         _leave_out(look, "anisotropy", "anisotropy of transmission")

@@ -4,8 +4,8 @@ import math
 
 from pxr import Usd, UsdGeom
 
+from glrt.scene.model_files.conversion.reports import LeftOut
 from glrt.scene.model_files.gltf_file import Table
-from glrt.scene.model_files.usd.reports import LeftOut
 
 _TENTH = 0.1  # focal lengths and apertures are in tenths of a unit of the file
 _MOST_ANGLE = 170.0  # degrees of a lens, seen from the point in focus

@@ -1,25 +1,22 @@
 """A USD file as the content of a .glb file: `python -m` this, in a process of its own."""
 
-import json
-import os
 import sys
-from pathlib import Path
 
 import numpy as np
 from pxr import Usd, UsdGeom
 
+from glrt.scene.model_files.conversion.folder import Folder
+from glrt.scene.model_files.conversion.outcome import convert, put_tables
+from glrt.scene.model_files.conversion.reports import LeftOut
 from glrt.scene.model_files.gltf_file import GltfFile
+from glrt.scene.model_files.usd.images import Images
 from glrt.scene.model_files.usd.lamps import Lamps
-from glrt.scene.model_files.usd.layers import Folder, opened_stage
+from glrt.scene.model_files.usd.layers import opened_stage
 from glrt.scene.model_files.usd.looks import Looks
 from glrt.scene.model_files.usd.motion import Motion
 from glrt.scene.model_files.usd.placing import Placing
 from glrt.scene.model_files.usd.primitives import Primitives
-from glrt.scene.model_files.usd.reports import LeftOut, UnshownError
-from glrt.scene.model_files.usd.texture_tables import Textures
 
-_MEMORY = 16 << 30  # bytes of the process
-KEY = "glrt_usd"  # in the extras of the file: what glTF cannot hold
 _Y_FROM_Z = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
 
 
@@ -32,8 +29,8 @@ def converted(folder: Folder) -> bytes:
     stage = opened_stage(folder)
     time = _moment(stage, left)
     glb = GltfFile("glrt")
-    textures = Textures(glb, folder, time)
-    looks, lamps = Looks(textures, left), Lamps(left, textures, time)
+    images = Images(glb, folder, time)
+    looks, lamps = Looks(images, left, time), Lamps(left, images, time)
     unit = UsdGeom.GetStageMetersPerUnit(stage)
     if not 1e-12 < unit < 1e12:
         left.add("metersPerUnit")
@@ -50,14 +47,8 @@ def converted(folder: Folder) -> bytes:
     glb.add("scenes", {"nodes": list(range(len(placing.nodes)))})
     for look in looks.found:
         glb.add("materials", {"name": look.name})
-    extras = {
-        "looks": [{"table": it.table, "is_two_sided": it.is_two_sided} for it in looks.found],
-        "lights": lamps.tables,
-        "lenses": placing.lenses,
-        "layers": folder.layers,
-        "left_out": left.told,
-    }
-    glb.put("extras", {KEY: extras})
+    tables = [{"table": it.table, "is_two_sided": it.is_two_sided} for it in looks.found]
+    put_tables(glb, folder, tables, lamps.tables, placing.lenses)
     return glb.binary()
 
 
@@ -79,27 +70,5 @@ def _moment(stage: Usd.Stage, left: LeftOut) -> Usd.TimeCode:
     return Usd.TimeCode.EarliestTime()
 
 
-def main() -> int:
-    """Convert a file, FILE BASE ALLOW_OUTSIDE OUTPUT; write the mistake as JSON if it has one."""
-    _limit()
-    file, base, outside, output = sys.argv[1:]
-    folder = Folder(Path(file), Path(base), outside == "True", LeftOut())
-    try:
-        content = converted(folder)
-    except UnshownError as problem:
-        content = json.dumps({"problem": str(problem)}).encode()
-    Path(output).write_bytes(content)
-    return 0
-
-
-def _limit() -> None:
-    """Let the process have no more memory than any file needs, and leave nothing of a crash."""
-    if os.name == "posix":
-        import resource
-
-        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-        resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(convert(converted))

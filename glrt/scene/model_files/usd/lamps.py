@@ -11,9 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd, UsdLux
 
-from glrt.scene.model_files.usd.looks import short
-from glrt.scene.model_files.usd.reports import LeftOut
-from glrt.scene.model_files.usd.texture_tables import Table, Textures
+from glrt.scene.model_files.conversion.reports import LeftOut
+from glrt.scene.model_files.networks.inputs import short
+from glrt.scene.model_files.networks.nodes import Table
+from glrt.scene.model_files.usd.images import Images
 
 Matrix = NDArray[np.float64]
 Vector = NDArray[np.float64]
@@ -25,8 +26,8 @@ _LEAST_ANGLE, _MOST_ANGLE = 1e-3, 90.0  # degrees of a sun
 class Lamps:
     """Lights as tables of a scene: materials, objects, suns and a background."""
 
-    def __init__(self, left: LeftOut, textures: Textures, time: Usd.TimeCode) -> None:
-        self._left, self._textures, self._time = left, textures, time
+    def __init__(self, left: LeftOut, images: Images, time: Usd.TimeCode) -> None:
+        self._left, self._images, self._time = left, images, time
         self.tables: Table = {"materials": {}, "objects": [], "suns": []}
 
     def add(self, prim: Usd.Prim, matrix: Matrix, unit: float) -> None:
@@ -160,11 +161,11 @@ class Lamps:
             self._left.add("dome lights but the first")
             return
         found: Table = {"color": self._radiance(prim)}
-        path = self._textures.path_of(prim.GetAttribute("inputs:texture:file"))
+        path = self._images.path_of(prim.GetAttribute("inputs:texture:file"))
         kind = self._value(prim, "texture:format", "automatic")
         if path and kind not in ("automatic", "latlong"):
             self._left.add(f"images of dome lights as {kind}")
-        elif path and (image := self._textures.added(path)) is not None:
+        elif path and (image := self._images.added(path)) is not None:
             found["image"] = image
             middle = matrix[:3, 2] / np.linalg.norm(matrix[:3, 2])  # of the image, its own +z
             found["rotation"] = math.degrees(math.atan2(-middle[0], -middle[2]))

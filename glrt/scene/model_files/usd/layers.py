@@ -2,35 +2,13 @@
 
 import os
 import re
-from dataclasses import dataclass, field
-from pathlib import Path
 
 from pxr import Ar, Sdf, Usd
 
-from glrt.scene.model_files.usd.reports import LeftOut, UnshownError
+from glrt.scene.model_files.conversion.folder import Folder
+from glrt.scene.model_files.conversion.reports import UnshownError
 
 _MOST_LAYERS = 10_000
-
-
-@dataclass
-class Folder:
-    """Where the files of a USD file lie: `base` holds all that may be read."""
-
-    root: Path  # the USD file
-    base: Path
-    allow_outside: bool
-    left: LeftOut
-    layers: list[str] = field(default_factory=list)  # other files that were read, from the root's
-
-    def may_read(self, path: str) -> bool:
-        """Return whether a file lies in the folder, without links that lead out."""
-        if self.allow_outside:
-            return True
-        return Path(os.path.realpath(path)).is_relative_to(os.path.realpath(self.base))
-
-    def relative(self, path: str) -> str:
-        """Return the path of a file from the folder of the USD file, with '/'."""
-        return Path(os.path.relpath(path, self.root.parent)).as_posix()
 
 
 def opened_stage(folder: Folder) -> Usd.Stage:

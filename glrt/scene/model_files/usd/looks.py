@@ -1,31 +1,19 @@
-"""UsdPreviewSurface materials, as tables of principled materials of a scene.
+"""Materials of a USD file, as tables of principled materials of a scene."""
 
-https://openusd.org/release/spec_usdpreviewsurface.html
-"""
-
-import math
 from dataclasses import dataclass, field
-from typing import Any
 
-import numpy as np
-from pxr import UsdShade
+from pxr import Usd, UsdShade
 
-from glrt.scene.model_files.usd.reports import LeftOut
-from glrt.scene.model_files.usd.texture_tables import Table, Textures, producer
+from glrt.scene.model_files.conversion.reports import LeftOut
+from glrt.scene.model_files.networks.coordinates import Coordinates
+from glrt.scene.model_files.networks.evaluation import Evaluation
+from glrt.scene.model_files.networks.nodes import Table
+from glrt.scene.model_files.networks.surfaces import is_surface, surface_table
+from glrt.scene.model_files.usd.images import Images
+from glrt.scene.model_files.usd.nodes import UsdNode
 
 COLORS = "displayColor"  # the primvar of colors of vertices, and the name of their material
-_SURFACE = "UsdPreviewSurface"
-_READER = "UsdPrimvarReader_float3"  # of colors of vertices
-_NEAR = 1e-4
-_BRIGHTEST = 1e9  # radiance
-_LARGEST_F0 = 0.99  # of an index of refraction of 399
-_DEFAULTS = {
-    "metallic": ("metallic", 0.0),
-    "roughness": ("roughness", 0.5),
-    "clearcoat": ("clearcoat", 0.0),
-    "clearcoat_roughness": ("clearcoatRoughness", 0.01),
-}
-_WITHOUT_TEXTURE = ("clearcoat", "clearcoat_roughness")
+_SETS = "st", "st1"  # of texture coordinates, by their numbers in networks of MaterialX
 
 
 @dataclass
@@ -45,16 +33,11 @@ def display_look() -> UsdLook:
     return UsdLook(COLORS, table, colors=COLORS)
 
 
-def short(value: float) -> float:
-    """Return the decimal number with the fewest digits that is the same in float32."""
-    return float(str(np.float32(value)))
-
-
 class Looks:
     """The materials of a file by their paths, each read once."""
 
-    def __init__(self, textures: Textures, left: LeftOut) -> None:
-        self._textures, self._left = textures, left
+    def __init__(self, images: Images, left: LeftOut, time: Usd.TimeCode) -> None:
+        self._images, self._left, self._time = images, left, time
         self._numbers: dict[str, int | None] = {}
         self._plain: int | None = None
         self.found: list[UsdLook] = []
@@ -79,140 +62,21 @@ class Looks:
         return len(self.found) - 1
 
     def _look(self, material: UsdShade.Material) -> UsdLook | None:
-        shader = material.ComputeSurfaceSource()[0]
+        shader = material.ComputeSurfaceSource()[0] or material.ComputeSurfaceSource("mtlx")[0]
         if not shader:
-            is_materialx = bool(material.ComputeSurfaceSource("mtlx")[0])
-            self._left.add("MaterialX networks" if is_materialx else "materials without a surface")
+            self._left.add("materials without a surface")
             return None
-        if shader.GetShaderId() != _SURFACE:
+        node = UsdNode(shader, self._images, self._time)
+        if not is_surface(node.category):
             self._left.name("materials of", str(shader.GetShaderId() or "code"))
             return None
-        look = UsdLook(material.GetPrim().GetName(), {"type": "principled"})
-        _Reading(look, shader, self._textures, self._left).fill()
-        if material.GetDisplacementOutput().HasConnectedSource():
-            value = self._textures.value(shader, "displacement", 0.0)
-            if value or producer(shader.GetInput("displacement")):
-                self._left.add("displacement")
+        look = UsdLook(material.GetPrim().GetName(), {})
+        is_preview = node.category == "UsdPreviewSurface"  # whose textures name their coordinates
+        coordinates = Coordinates(look.sets, None if is_preview else _SETS[0], _SETS)
+        evaluation = Evaluation(coordinates, self._left)
+        look.table, colors = surface_table(node, evaluation)
+        look.colors = COLORS if colors == "" else colors
+        is_moved = node.source("displacement") or node.value("displacement")
+        if is_moved and material.GetDisplacementOutput().HasConnectedSource():
+            self._left.add("displacement")
         return look
-
-
-@dataclass
-class _Reading:
-    look: UsdLook
-    shader: UsdShade.Shader
-    textures: Textures
-    left: LeftOut
-
-    def fill(self) -> None:
-        """Fill the table of the look from the inputs of the surface."""
-        table = self.look.table
-        table["color"] = self._color("diffuseColor", (0.18, 0.18, 0.18), 1.0)
-        for key, (name, default) in _DEFAULTS.items():
-            table[key] = self._number(name, default, key not in _WITHOUT_TEXTURE)
-        table["ior"] = min(max(short(self._plain("ior", 1.5)), 1.0), 1e3)
-        if self._plain("useSpecularWorkflow", 0):
-            self._specular()
-        self._emission()
-        self._opacity()
-        self._normal()
-
-    def _plain(self, name: str, default: Any) -> Any:
-        if producer(self.shader.GetInput(name)):
-            self.left.add(f"textures of {name}")
-            return default
-        return self.textures.value(self.shader, name, default)
-
-    def _color(self, name: str, default: Any, most: float) -> Any:
-        """Return a color, or the table of a texture."""
-        source = producer(self.shader.GetInput(name))
-        if source is None:
-            return self._within(self.textures.value(self.shader, name, default), name, most)
-        reader = UsdShade.Shader(source.GetPrim())
-        if name == "diffuseColor" and reader.GetShaderId() == _READER:
-            self.look.colors = str(self.textures.value(reader, "varname", "")) or COLORS
-            return [1.0, 1.0, 1.0]
-        found = self.textures.table(source, self.look.sets, name, True)
-        if found is None:
-            return self._within(self._fallback(source, default), name, most)
-        scale, bias = self.textures.scale_and_bias(source)
-        if any(bias[:3]):
-            self.left.add(f"bias of textures of {name}")
-        return {**found, "factor": self._within(scale[:3], name, most)}
-
-    def _fallback(self, source: UsdShade.Output, default: Any) -> Any:
-        shader = UsdShade.Shader(source.GetPrim())
-        given = self.textures.value(shader, "fallback")
-        return default if given is None or len(given) < 3 else given[:3]
-
-    def _number(self, name: str, default: float, may_be_texture: bool = True) -> Any:
-        """Return a number from 0 to 1, or the table of a texture."""
-        source = producer(self.shader.GetInput(name)) if may_be_texture else None
-        if source is None:
-            (found,) = self._within([self._plain(name, default)], name, 1.0)
-            return found
-        table = self.textures.table(source, self.look.sets, name, False)
-        if table is None:
-            return default
-        scale, bias = self.textures.scale_and_bias(source)
-        place = "rgba".index(table["channel"])
-        if bias[place]:
-            self.left.add(f"bias of textures of {name}")
-        (factor,) = self._within([scale[place]], name, 1.0)
-        return {**table, "factor": factor}
-
-    def _within(self, values: Any, name: str, most: float) -> list[float]:
-        given = [short(value) for value in values]
-        if not all(math.isfinite(value) for value in given):
-            self.left.add(f"{name} that is no number")
-            return [0.0 for _ in given]
-        found = [min(max(value, 0.0), most) for value in given]
-        if max(abs(a - b) for a, b in zip(given, found, strict=True)) > _NEAR:
-            self.left.add(f"the part of {name} outside 0 to {most:g}")
-        return found
-
-    def _specular(self) -> None:
-        """Take the reflectance head-on from a color in place of ior and metallic."""
-        color = self._within(self._plain("specularColor", (0, 0, 0)), "specularColor", _LARGEST_F0)
-        table, most = self.look.table, max(color)
-        table["metallic"] = 0.0
-        if most == 0:
-            table["specular"] = 0.0
-            return
-        root = math.sqrt(most)
-        table["ior"] = (1 + root) / (1 - root)
-        table["specular_color"] = [each / most for each in color]
-
-    def _emission(self) -> None:
-        found = self._color("emissiveColor", (0, 0, 0), _BRIGHTEST)
-        if isinstance(found, dict) or any(found):
-            self.look.table["emission"] = found
-
-    def _opacity(self) -> None:
-        table = self.look.table
-        alpha = self._number("opacity", 1.0)
-        if alpha == 1.0:
-            return
-        if "emission" in table and not isinstance(table["emission"], dict):
-            self.left.add("opacity of what emits")
-            return
-        table["alpha"] = alpha
-        cutoff = short(self._plain("opacityThreshold", 0.0))
-        if cutoff > 0:
-            table["alpha_cutoff"] = min(cutoff, 1.0)
-
-    def _normal(self) -> None:
-        source = producer(self.shader.GetInput("normal"))
-        if source is None:
-            return
-        table = self.textures.table(source, self.look.sets, "normal", False)
-        if table is None:
-            return
-        table.pop("channel", None)
-        scale, bias = self.textures.scale_and_bias(source)
-        strength = scale[0] / 2
-        usual = [2 * strength, 2 * strength, 2.0], [-strength, -strength, -1.0]
-        pairs = zip(scale[:3] + bias[:3], usual[0] + usual[1], strict=True)
-        if not all(abs(a - b) <= _NEAR for a, b in pairs):
-            self.left.add("scale and bias of normals other than 2 and -1")
-            strength = 1.0
-        self.look.table["normal"] = {**table, "strength": min(max(strength, 0.0), 100.0)}

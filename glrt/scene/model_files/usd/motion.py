@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Gf, Usd, UsdGeom
 
+from glrt.scene.model_files.conversion.reports import LeftOut
 from glrt.scene.model_files.gltf_file import GltfFile, Table
-from glrt.scene.model_files.usd.reports import LeftOut
 
 Matrices = NDArray[np.float64]  # (k, 4, 4), which turn columns
 

@@ -7,13 +7,13 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Usd, UsdGeom, UsdLux
 
+from glrt.scene.model_files.conversion.reports import LeftOut, UnshownError
 from glrt.scene.model_files.gltf_file import GltfFile, Table
 from glrt.scene.model_files.usd.cameras import camera_table, lens_table
 from glrt.scene.model_files.usd.lamps import Lamps
 from glrt.scene.model_files.usd.motion import Motion
 from glrt.scene.model_files.usd.polygons_of_prims import polygons_of
 from glrt.scene.model_files.usd.primitives import Primitives, bound_material
-from glrt.scene.model_files.usd.reports import LeftOut, UnshownError
 
 Matrix = NDArray[np.float64]
 

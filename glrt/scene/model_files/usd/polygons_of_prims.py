@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from pxr import Usd, UsdGeom
 
 from glrt.core.text import quoted
-from glrt.scene.model_files.usd.reports import LeftOut, UnshownError
+from glrt.scene.model_files.conversion.reports import LeftOut, UnshownError
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

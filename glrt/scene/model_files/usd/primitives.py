@@ -8,11 +8,11 @@ from numpy.typing import NDArray
 from pxr import Usd, UsdGeom, UsdShade
 
 from glrt.scene.meshes.creases import by_angle
+from glrt.scene.model_files.conversion.reports import LeftOut
 from glrt.scene.model_files.gltf_file import GltfFile, Table
 from glrt.scene.model_files.polygons import triangulated
 from glrt.scene.model_files.usd.looks import COLORS, Looks, UsdLook
 from glrt.scene.model_files.usd.polygons_of_prims import Ints, Polygons, Rows, rows_of
-from glrt.scene.model_files.usd.reports import LeftOut
 
 _CREASE = 40.0  # degrees: edges of a control mesh from which they are sharp
 

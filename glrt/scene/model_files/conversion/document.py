@@ -1,28 +1,31 @@
-"""A USD file as a glTF file, with materials, lights and lenses as tables of a scene."""
+"""A converted file as a glTF file, with materials, lights and lenses as tables of a scene."""
 
 from pathlib import Path
 from typing import Any
 
 from glrt.scene.meshes.triangle_meshes import NO_MATERIAL
+from glrt.scene.model_files.conversion.outcome import KEY
+from glrt.scene.model_files.conversion.process import Library, glb_of
 from glrt.scene.model_files.gltf.document import Document, Fetch
 from glrt.scene.model_files.gltf.images import image_place
-from glrt.scene.model_files.gltf.materials import Look, grey
+from glrt.scene.model_files.gltf.materials import Look, fit_glass, grey
 from glrt.scene.model_files.gltf.primitives import material_names
-from glrt.scene.model_files.usd.process import glb_of
 
 Table = dict[str, Any]
 
 
-class UsdDocument(Document):
-    """A converted USD file: nodes, meshes, cameras and images as in glTF, the rest as tables."""
+class ConvertedDocument(Document):
+    """A converted file: nodes, meshes, cameras and images as in glTF, the rest as tables."""
 
-    def __init__(self, file: Path, base: Path, allow_outside: bool, fetch: Fetch) -> None:
+    def __init__(
+        self, library: Library, file: Path, base: Path, allow_outside: bool, fetch: Fetch
+    ) -> None:
         """Convert a file; `fetch` reads the other files that it was made of, and those of images.
 
         Raises `ConversionError`.
         """
-        super().__init__(glb_of(file, base, allow_outside), fetch)
-        self._own: Table = self.json["extras"]["glrt_usd"]
+        super().__init__(glb_of(library, file, base, allow_outside), fetch)
+        self._own: Table = self.json["extras"][KEY]
         for path in self._own["layers"]:
             fetch(path)
 
@@ -57,7 +60,10 @@ class UsdDocument(Document):
             key: self._with_image(value, path) if isinstance(value, dict) else value
             for key, value in given["table"].items()
         }
-        return Look(table, hides_backs=not given["is_two_sided"])
+        look = Look(table, hides_backs=not given["is_two_sided"])
+        if table.get("transmission"):
+            fit_glass(look)
+        return look
 
     def _with_image(self, table: Table, path: str) -> Table:
         """Return a table with the path of its image in place of the number."""

@@ -1,4 +1,4 @@
-"""Parts of a USD file that are left out, in words and by kind."""
+"""Parts of a file that are left out, in words and by kind."""
 
 from glrt.core.errors import ContentError
 from glrt.core.text import quoted
@@ -7,7 +7,7 @@ _MOST_NAMED = 20  # of a kind
 
 
 class UnshownError(ContentError):
-    """A USD file cannot be shown; the message completes `FILE ...`, without a full stop."""
+    """A file cannot be shown; the message completes `FILE ...`, without a full stop."""
 
 
 class LeftOut:
