@@ -1,6 +1,6 @@
 """The lead over Mitsuba on scenes that nobody has seen: drawn from a hash of the program itself.
 
-Every change of glrt/ or shaders_glsl/ draws other scenes of `bench.scenes`, so that none can be
+Every change of glrt/ or shaders_glsl/ draws other scenes of `bench.landscapes`, so that none can be
 tuned for. In each scene glrt, by its defaults, and Mitsuba at its best (`bench.entries`) take turns
 with sixteen independent renders of their own; errors are relative RMS, about each renderer's own
 mean. Seconds to 2 % are extrapolated by t^-1/2, and the slope is checked by sixteen renders each of
@@ -31,9 +31,9 @@ from bench.contest import (
     time_lead_of,
 )
 from bench.entries import GLRT, MITSUBA, PEERS, TARGET_ERROR, best_mitsuba, level_of, ours
+from bench.landscapes import landscape
 from bench.processes import ROOT
 from bench.program import add_rounds, at_least, exit_code_of, machine, parser_of
-from bench.scenes import random_scene
 from bench.turns import (
     Command,
     Entry,
@@ -50,6 +50,7 @@ from bench.turns import (
 from glrt.core import files
 from glrt.core.errors import RenderError
 from glrt.scene.scene import Scene
+from glrt.scene.shapes.mesh import Mesh
 
 HASHED = ("glrt", "shaders_glsl")
 UNHASHED = ("__pycache__",)
@@ -93,7 +94,7 @@ def measure(
     commands: Mapping[str, Command], seed: int, size: int, rounds: int, seconds: float
 ) -> Result:
     """Render a scene by its seed; RenderError if a renderer refuses it."""
-    scene = random_scene(seed)
+    scene = landscape(seed)
     return measure_scene(commands, scene, _about(scene), size, rounds, seconds, seed)
 
 
@@ -160,7 +161,12 @@ def _about(scene: Scene) -> str:
     names = {"metal": "metal", "dielectric": "glass"}
     words = [f"{len(scene.objects)} shapes", f"{lamps} lamps"]
     words += [name for kind, name in names.items() if kind in kinds]
-    return ", ".join(words + ["lens"] * bool(scene.camera.defocus_angle))
+    words += ["lens"] * bool(scene.camera.defocus_angle)
+    meshes = [item for item in scene.objects if isinstance(item, Mesh)]
+    triangles = sum(len(item.triangles.faces) for item in meshes)
+    words += [f"{triangles:,} triangles"] * bool(meshes)
+    words += ["clear sky"] * bool(scene.background.sky)
+    return ", ".join(words + ["image of the sky"] * bool(scene.background.image))
 
 
 def table(results: Sequence[Result]) -> Iterator[str]:
