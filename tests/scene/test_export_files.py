@@ -189,6 +189,7 @@ def test_what_the_formats_cannot_hold_is_reported(tmp_path: Path) -> None:
         "g": glass(1.5, priority=1),
         "f": glass(1.5, roughness=0.5),
         "p": {"type": "principled", "clearcoat": 1.0},
+        "brass": {"type": "principled", "metallic": 1.0, "roughness": 0.5},
         "spot": lamp(1) | {"cone": {"axis": [0, -1, 0], "inner": 10, "outer": 20}},
     }
     parts = [
@@ -196,11 +197,13 @@ def test_what_the_formats_cannot_hold_is_reported(tmp_path: Path) -> None:
         sphere([0, 5, 0], 1, "f"),
         sphere([9, 5, 0], 1, "m"),
         sphere([9, 9, 0], 1, "p"),
+        sphere([9, 13, 0], 1, "brass"),
         plane([0, -2, 0], [0, 1, 0], "spot"),
     ]
     scene = scene_of(parts, materials, CAMERA, **WHITE)
     both = ("cone of 'spot'", "priority of 'g'", "facets of 'f'", "a lamp without end")
-    for words in (*both, "facets of 'm'", "exact surface of 'p'", "coat of 'p'"):
+    lost = "light that facets of 'brass' send to each other"
+    for words in (*both, "facets of 'm'", "exact surface of 'p'", "coat of 'p'", lost):
         assert words in left_out(scene, tmp_path)
     for words in (*both, "exact angles of 'm'", "exact surface of 'p'", "coat of 'p'"):
         assert words in left_out(scene, tmp_path, to_pbrt)

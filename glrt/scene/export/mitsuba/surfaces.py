@@ -105,6 +105,7 @@ class Surfaces:
             self._report(f"the exact surface of {quoted(name)}: glTF's principled is not Mitsuba's")
         elif material.facet_alpha:
             self._report(f"the correlated shadows between facets of {quoted(name)}")
+            self._report(f"the light that facets of {quoted(name)} send to each other")
         if material.anisotropy:
             self._report(f"the anisotropy of {quoted(name)}")
         if material.film:
