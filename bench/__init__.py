@@ -17,6 +17,7 @@ Programs, `python -m bench.NAME`; `--help` lists their options:
 - rivals: time to an error of 2 %, against other renderers
 - unseen: the lead over Mitsuba on scenes drawn from a hash of the program
 - volumes_rivals: the same in fog, smoke and milk
+- real_models: real models by glrt and by Mitsuba, compared
 - doubt: how often the judgement on an estimated error is wrong, on new scenes
 - denoised: what a denoiser gains, and whether it knows its error
 - calibration: the estimated error of pictures against their true error
@@ -75,4 +76,5 @@ They share:
 - fooling_scenes: random scenes whose estimated error is likely to be wrong
 - dice: random numbers that are the same on every machine
 - placing: random positions without overlaps
+- landscapes: random scenes with meshes and skies
 """
