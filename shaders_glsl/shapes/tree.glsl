@@ -219,7 +219,8 @@ Among next_among(Among now, Among outside, Walk walk, Slot slot, Left left) {
 
 Course course_of(Among among) {
     float cells = 1.0 / among.cell;
-    TreeRay grid = ray_on_grid(among.start * cells, among.largest * cells, among.direction, among.cell);
+    float largest = among.largest * cells;
+    TreeRay grid = ray_on_grid(among.start * cells, largest, INSTANCE_SLACK, among.direction, among.cell);
     return Course(grid, sheared_along(among.clear, among.direction), among.instance);
 }
 

@@ -3,8 +3,10 @@
 // shapes, bit for bit.
 
 // Assumed error of the origin of a ray, relative to the largest coordinate of the origin, of the tree's middle
-// or of its grid: 128 times the rounding of a float.
-const float SLACK = 7.62939453125e-6;
+// or of its grid: 16 times the rounding of a float. Wider boxes let rays from afar meet triangles that they see from
+// the edge, whose distance is rounding, and make them slow.
+const float SLACK = 9.5367431640625e-7;
+const float INSTANCE_SLACK = 7.62939453125e-6;  // 128 times: rays of instances are placed in their coordinates first
 const float HALF_GRID = 8388608.0;  // cells
 const float STEEPEST = 1.2379400392853803e27;  // 2^90: nothing in the tests of boxes overflows
 const uint NO_CHILD = 0xFFFFFFFFu;
@@ -17,10 +19,11 @@ struct TreeRay {
     bvec3 is_down;
 };
 
-// `start` is relative to the middle of the grid, in cells; the rounding of its coordinates is relative to `largest`.
-TreeRay ray_on_grid(vec3 start, float largest, vec3 direction, float cell) {
+// `start` is relative to the middle of the grid, in cells; the rounding of its coordinates is relative to `largest`,
+// by the share `error`.
+TreeRay ray_on_grid(vec3 start, float largest, float error, vec3 direction, float cell) {
     vec3 place = start + HALF_GRID;
-    float slack = SLACK * larger(largest, 2.0 * HALF_GRID);
+    float slack = error * larger(largest, 2.0 * HALF_GRID);
     vec3 inverse = clamp(cell / direction, vec3(-STEEPEST), vec3(STEEPEST));
     bvec3 is_down = lessThan(inverse, vec3(0.0));  // also right for zeros of both signs
     vec3 shift = vec3(is_down.x ? -slack : slack, is_down.y ? -slack : slack, is_down.z ? -slack : slack);
@@ -32,7 +35,7 @@ TreeRay tree_ray(Ray ray) {
     vec3 size = max(abs(ray.origin), abs(center));
     float cells = 1.0 / frame.tree_cell;
     float largest = larger(larger(size.x, size.y), size.z) * cells;
-    return ray_on_grid((ray.origin - center) * cells, largest, ray.direction, frame.tree_cell);
+    return ray_on_grid((ray.origin - center) * cells, largest, SLACK, ray.direction, frame.tree_cell);
 }
 
 // The children of a node as a ray meets them: for all 8, one byte each along each axis.
