@@ -7,6 +7,7 @@ Programs, `python -m bench.NAME`; `--help` lists their options:
 - against: whether this checkout is slower than another commit
 - gpu: every route, pipeline and tier on this machine against the first; the test of a new GPU
 - scenes: random scenes by seed, as files
+- landscapes: the same with meshes and skies
 - kernels: the speed of the kernel and of its variants
 - efficiency: variance and time with one setting of a render changed at a time
 - shape_counts: the speed-up by a tree over shapes, by their number
@@ -76,5 +77,4 @@ They share:
 - fooling_scenes: random scenes whose estimated error is likely to be wrong
 - dice: random numbers that are the same on every machine
 - placing: random positions without overlaps
-- landscapes: random scenes with meshes and skies
 """

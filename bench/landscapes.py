@@ -1,11 +1,14 @@
 """Random scenes of `bench.scenes` with meshes and skies, by seed.
 
+    python -m bench.landscapes SEED -o FILE.toml
+
 In half of the scenes, half of the balls that are no lamps become meshes of 5,000 to 82,000
 triangles. A third of the open floors lie under a clear sky with its sun, a third under an image of
 the sky with a small sun, the others under a gradient.
 """
 
 import math
+import sys
 import tempfile
 from pathlib import Path
 from typing import Any
@@ -14,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bench.dice import Dice
+from bench.program import at_least, exit_code_of, parser_of
 from bench.scenes import Table, random_tables
 from glrt.scene.files.assets import AssetFolder
 from glrt.scene.files.named_images import Pixels
@@ -91,3 +95,17 @@ def sky_image(towards: tuple[float, float, float], brightness: float) -> Pixels:
     pixels[np.unravel_index(np.argmin(near), near.shape)] = brightness * np.array([1.0, 0.9, 0.75])
     found: Pixels = pixels.astype(np.float32)
     return found
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """`python -m bench.landscapes`; returns the exit code."""
+    parser = parser_of("landscapes", __doc__)
+    parser.add_argument("seed", type=at_least(0), metavar="SEED", help="a whole number from 0 on")
+    told = "the scene file; its meshes and images lie next to it"
+    parser.add_argument("-o", dest="file", type=Path, metavar="FILE", required=True, help=told)
+    parsed = parser.parse_args(arguments)
+    return exit_code_of(lambda: landscape(parsed.seed).save(parsed.file))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,13 +1,15 @@
 """Random scenes with meshes and skies: valid, varied, and the same for a seed."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-from bench.landscapes import landscape, sky_image
+from bench.landscapes import landscape, main, sky_image
 from bench.peer import Request
 from bench.unseen import _about
+from glrt.image.sources import load
 from glrt.scene.shapes.mesh import Mesh
 
 SEEDS = range(60)
@@ -42,6 +44,12 @@ def test_a_seed_gives_the_same_scene_also_to_other_processes(seed: int) -> None:
     for one, other in zip(*meshes, strict=True):
         assert np.array_equal(one.faces, other.faces)
         assert np.allclose(one.vertices, other.vertices, atol=1e-6)
+
+
+def test_a_scene_is_written_with_its_files(tmp_path: Path) -> None:
+    """The file is the scene of the seed."""
+    assert main(["8", "-o", str(tmp_path / "scene.toml")]) == 0
+    assert _about(load(tmp_path / "scene.toml")) == _about(landscape(8))
 
 
 def test_the_sun_of_an_image_stands_where_it_should() -> None:
