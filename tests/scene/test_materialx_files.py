@@ -6,7 +6,6 @@ from collections import Counter
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 import glrt
@@ -17,7 +16,6 @@ from glrt.scene.materials.principled import Principled
 from glrt.scene.model_files.conversion import process
 from glrt.scene.model_files.conversion.folder import Folder
 from glrt.scene.model_files.conversion.reports import LeftOut, UnshownError
-from glrt.scene.model_files.materialx.balls import ball
 from tests.support.gltf_files import COLORS, png
 from tests.support.materialx_files import (
     HEAD,
@@ -135,6 +133,18 @@ def test_surfaces_without_a_material_are_shown(tmp_path: Path) -> None:
         scene_of(tmp_path, other)
 
 
+def test_parts_that_no_scene_has_are_reported(tmp_path: Path) -> None:
+    """Looks, units, normals of coats, and materials without a surface."""
+    coat = connected("coat_normal", "bumps", "vector3")
+    depth = given("transmission_depth", "1", unit="inch", unittype="distance")
+    paint = material("m", "standard_surface", coat, depth)
+    others = (node("surfacematerial", "empty", "material"), '<look name="l"/>')
+    bumps = image("bumps", "dots.png", "vector3")
+    told = left_out(scene_of(tmp_path, bumps, paint, *others)).replace('"', "'").split("; ")
+    assert told[:3] == ["coat_normal", "looks", "materials without a surface 'empty'"]
+    assert told[3:] == ["units of 'transmission_depth'"]
+
+
 def test_images_that_are_missing_or_of_many_tiles_are_left_out(tmp_path: Path) -> None:
     """By name."""
     nodes = image("a", "none.png") + image("b", "tiles.<UDIM>.png")
@@ -205,40 +215,6 @@ def test_without_the_library_the_message_says_how_to_get_it(
     monkeypatch.setattr(process, "find_spec", lambda name: None)
     with pytest.raises(SceneError, match=r"-m pip install .*\[materialx\]"):
         scene_of(tmp_path, PLAIN)
-
-
-def test_a_ball_is_closed_faces_outwards_and_shows_its_image_upright() -> None:
-    """Every edge has two triangles; the middle of the image faces the camera."""
-    points, uv, triangles = ball()
-    _, same = np.unique(points, axis=0, return_inverse=True)
-    edges = Counter(
-        (a, b) for t in same.reshape(-1)[triangles] for a, b in zip(t, np.roll(t, -1), strict=True)
-    )
-    assert all(count == 1 and edges[b, a] == 1 for (a, b), count in edges.items())
-    first, second, third = points[triangles].swapaxes(0, 1)
-    outwards = np.cross(second - first, third - first)
-    assert (np.einsum("ij,ij->i", outwards, first + second + third) > 0).all()
-    front = np.flatnonzero(np.abs(uv - 0.5).max(axis=1) < 1e-9)
-    assert points[front] == pytest.approx(np.array([[0, 0, 1]]), abs=1e-12)
-    right, up = points[np.argmin(np.abs(uv - (0.6, 0.5)).sum(axis=1))], points[0]
-    assert right[0] > 0
-    assert up[1] == 1
-
-
-def test_materials_stand_side_by_side_and_in_the_picture(tmp_path: Path) -> None:
-    """Five balls in two rows, apart from one another."""
-    scene = scene_of(tmp_path, *(material(f"m{k}", "gltf_pbr") for k in range(5)))
-    middles = np.array([it.triangles.vertices.mean(axis=0) for it in scene.meshes])
-    gaps = np.linalg.norm(middles[:, None] - middles[None], axis=2) + 9 * np.eye(5)
-    assert gaps.min() > 2
-    camera = scene.camera
-    forward = np.array(camera.look_at) - camera.position
-    forward /= np.linalg.norm(forward)
-    points = np.concatenate([it.triangles.vertices for it in scene.meshes]) - camera.position
-    height = np.array(camera.up) - forward * np.dot(camera.up, forward)
-    tangents = points @ (height / np.linalg.norm(height)) / (points @ forward)
-    limit = np.tan(np.radians(camera.fov / 2))
-    assert 0.7 * limit < np.abs(tangents).max() < limit
 
 
 def test_an_imported_document_is_the_same_scene(tmp_path: Path) -> None:

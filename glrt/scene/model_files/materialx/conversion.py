@@ -75,6 +75,8 @@ def _surfaces(document: MaterialX.Document, folder: Folder) -> list[tuple[str, M
         surfaces = MaterialX.getShaderNodes(material, "surfaceshader")
         if MaterialX.getShaderNodes(material, "displacementshader"):
             left.add("displacement")
+        if not surfaces:
+            left.name("materials without a surface", material.getName())
         for surface in surfaces[:1]:
             if is_surface(surface.getCategory()):
                 found.append((material.getName(), surface))
@@ -83,6 +85,12 @@ def _surfaces(document: MaterialX.Document, folder: Folder) -> list[tuple[str, M
     if not materials:
         nodes = document.getNodes()
         found = [(it.getName(), it) for it in nodes if is_surface(it.getCategory())]
+    if looks := document.getLooks():
+        left.add("looks", len(looks))
+    for _, surface in found:
+        for given in surface.getInputs():
+            if given.hasUnit():
+                left.name("units of", given.getName())
     if len(found) > _MOST:
         left.add(f"materials after the first {_MOST}", len(found) - _MOST)
     return found[:_MOST]

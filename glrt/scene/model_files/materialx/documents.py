@@ -8,8 +8,6 @@ from glrt.scene.model_files.conversion.folder import Folder
 from glrt.scene.model_files.conversion.reports import UnshownError
 
 _MOST_INCLUDED = 1_000  # documents
-_DEEPEST = 100  # elements within one another: the library reads them by recursion
-_LONGEST = 256 << 20  # bytes of a document
 _PROBLEMS = (
     MaterialX.Exception,
     MaterialX.ExceptionFileMissing,
@@ -36,7 +34,6 @@ def opened_document(folder: Folder) -> MaterialX.Document:
 
 def _read(document: MaterialX.Document, path: str, folder: Folder, known: set[str]) -> None:
     known.add(os.path.realpath(path))
-    _check(path)
     options = MaterialX.XmlReadOptions()
 
     def include(inner: MaterialX.Document, name: MaterialX.FilePath, *_: object) -> None:
@@ -54,20 +51,3 @@ def _read(document: MaterialX.Document, path: str, folder: Folder, known: set[st
 
     options.readXIncludeFunction = include
     MaterialX.readFromXmlFile(document, path, MaterialX.FileSearchPath(), options)
-
-
-def _check(path: str) -> None:
-    """Raise ValueError for what the library could not read without a crash."""
-    if os.path.getsize(path) > _LONGEST:
-        raise ValueError
-    with open(path, "rb") as file:
-        text = file.read()
-    depth = most = 0
-    for piece in text.split(b"<")[1:]:
-        if piece.startswith(b"/"):
-            depth -= 1
-        elif not piece.startswith((b"!", b"?")) and not piece.partition(b">")[0].endswith(b"/"):
-            depth += 1
-            most = max(most, depth)
-    if most > _DEEPEST:
-        raise ValueError

@@ -193,9 +193,7 @@ class Evaluation:
             return self._input(node, name, kind, depth)
         lying = self.coordinates.table(node)
         if lying is None:
-            self.left.add(
-                f"textures of {kind} whose coordinates are no primvars, or a third, or skewed"
-            )
+            self.left.add(f"textures of {kind} by other coordinates, or skewed")
             return None
         has_colors = node.type in ("color3", "color4", "multioutput", "")
         space = node.color_space("file") if has_colors and not image.is_linear else ""

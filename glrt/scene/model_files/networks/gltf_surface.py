@@ -3,8 +3,8 @@
 import math
 
 from glrt.scene.model_files.networks.evaluation import times
-from glrt.scene.model_files.networks.inputs import Defaults, Inputs
-from glrt.scene.model_files.networks.layered import BRIGHTEST, film
+from glrt.scene.model_files.networks.inputs import BRIGHTEST, Defaults, Inputs
+from glrt.scene.model_files.networks.layered import film
 from glrt.scene.model_files.networks.nodes import Table
 
 DEFAULTS: Defaults = {
@@ -39,6 +39,7 @@ _MASK = 1
 
 def gltf_surface(inputs: Inputs) -> Table:
     """Return the table of a material."""
+    inputs.report_vectors("clearcoat_normal", "tangent")
     table: Table = {"color": inputs.color_key(inputs.found("base_color"), "base_color")}
     for name in ("metallic", "roughness"):
         table[name] = inputs.number_key(inputs.found(name), name)
@@ -59,9 +60,9 @@ def gltf_surface(inputs: Inputs) -> Table:
             turn = inputs.number("anisotropy_rotation", 1e3, -1e3)
             table["anisotropy"] = strength
             table["anisotropy_rotation"] = math.degrees(math.remainder(turn, math.tau))
-    thickness = inputs.number("iridescence_thickness", 1e4)
-    ior = inputs.number("iridescence_ior", 10.0, 1.0)
-    table |= film(thickness, ior, inputs.number("iridescence"))
+    if share := inputs.number("iridescence"):
+        thickness = inputs.number("iridescence_thickness", 1e4)
+        table |= film(thickness, inputs.number("iridescence_ior", 10.0, 1.0), share)
     strength = inputs.number("emissive_strength", BRIGHTEST)
     emitted = times(inputs.found("emissive"), (strength,))
     emission = inputs.color_key(emitted, "emissive", BRIGHTEST)

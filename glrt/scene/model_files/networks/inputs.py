@@ -19,6 +19,8 @@ from glrt.scene.model_files.networks.nodes import Node, Numbers, Table
 
 Defaults = Mapping[str, float | Numbers]  # of the inputs of a surface
 
+BRIGHTEST = 1e9  # radiance
+
 _NEAR = 1e-4  # how far out of its range a value may be by rounding
 _STRONGEST = 100.0  # strength of normals
 
@@ -70,6 +72,12 @@ class Inputs:
         """Report inputs that no material of glrt has, where they have other values than usual."""
         for name in names:
             if self.has(name):
+                self.left.add(name)
+
+    def report_vectors(self, *names: str) -> None:
+        """Report normals and tangents that no material of glrt has, where nodes give them."""
+        for name in names:
+            if self.node.source(name) is not None:
                 self.left.add(name)
 
     @property

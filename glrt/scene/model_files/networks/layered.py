@@ -1,13 +1,15 @@
 """Parts that Standard Surface and OpenPBR have in common, as keys of a principled material."""
 
 import math
+from collections.abc import Callable
 
 from glrt.scene.model_files.networks.arithmetic import between
 from glrt.scene.model_files.networks.evaluation import Found, Picture, VertexColors, times
-from glrt.scene.model_files.networks.inputs import Inputs, short
+from glrt.scene.model_files.networks.inputs import BRIGHTEST, Inputs, short
 from glrt.scene.model_files.networks.nodes import Numbers, Table
 
-BRIGHTEST = 1e9  # radiance
+Alphas = Callable[[float, float], tuple[float, float]]
+
 _THINNEST = 1e-6  # length after which glass has its color; thinner is none
 
 
@@ -27,7 +29,7 @@ def base_color(inputs: Inputs, base: Found, under: str, under_color: str) -> Fou
     """
     if not inputs.has(under):
         return base
-    inputs.left.add(f"scattering below the surface ({under}), which shows its color")
+    inputs.left.add(f"scattering below the surface ({under})")
     share, inner = inputs.found(under), inputs.found(under_color)
     return mixed(inputs, base, inner, share, under_color)
 
@@ -43,8 +45,11 @@ def mixed(inputs: Inputs, base: Found, other: Found, share: Found, name: str) ->
     return base
 
 
-def facets(inputs: Inputs, roughness: str, anisotropy: str, is_open_pbr: bool) -> Table:
-    """Return roughness and anisotropy that give the same alphas of GGX along and across."""
+def facets(inputs: Inputs, roughness: str, anisotropy: str, alphas: Alphas) -> Table:
+    """Return roughness and anisotropy that give the same alphas of GGX along and across.
+
+    `alphas` gives both for a roughness and an anisotropy, as the surface defines them.
+    """
     rough = inputs.number_key(inputs.found(roughness), roughness)
     share = inputs.number(anisotropy)
     if not share:
@@ -52,12 +57,7 @@ def facets(inputs: Inputs, roughness: str, anisotropy: str, is_open_pbr: bool) -
     if isinstance(rough, dict):
         inputs.left.add(f"{anisotropy} with a texture of {roughness}")
         return {"roughness": rough}
-    if is_open_pbr:  # OpenPBR Surface 1.1, "Microfacet model"
-        along = rough**2 * math.sqrt(2 / (1 + (1 - share) ** 2))
-        across = (1 - share) * along
-    else:  # roughness_anisotropy of MaterialX
-        aspect = math.sqrt(1 - min(share, 0.98))
-        along, across = min(rough**2 / aspect, 1.0), rough**2 * aspect
+    along, across = alphas(rough, share)
     if across >= 1:
         return {"roughness": 1.0}
     grain = math.sqrt(max(min(along, 1.0) - across, 0.0) / (1 - across))

@@ -1,5 +1,7 @@
 """OpenPBR Surface as a principled material: https://academysoftwarefoundation.github.io/OpenPBR/."""
 
+import math
+
 from glrt.scene.model_files.networks.inputs import Defaults, Inputs
 from glrt.scene.model_files.networks.layered import (
     base_color,
@@ -61,6 +63,7 @@ _NANOMETRES = 1e3  # of a micrometre
 def open_pbr(inputs: Inputs) -> Table:
     """Return the table of a material."""
     inputs.report("base_diffuse_roughness", "coat_roughness_anisotropy")
+    inputs.report_vectors("geometry_coat_normal", "geometry_tangent", "geometry_coat_tangent")
     base = weighted(inputs, "base_weight", "base_color")
     is_thin = bool(inputs.number("geometry_thin_walled"))
     leaf: Table = {}
@@ -71,7 +74,7 @@ def open_pbr(inputs: Inputs) -> Table:
     base = coated(inputs, "coat_weight", "coat_color", base)
     metal = inputs.found("base_metalness")
     table: Table = {"metallic": inputs.number_key(metal, "base_metalness")}
-    table |= facets(inputs, "specular_roughness", "specular_roughness_anisotropy", True)
+    table |= facets(inputs, "specular_roughness", "specular_roughness_anisotropy", _alphas)
     table["specular"] = inputs.number("specular_weight")
     table["specular_color"] = list(inputs.three("specular_color"))
     table["ior"] = inputs.number("specular_ior", 1e3, 1.0)
@@ -85,9 +88,9 @@ def open_pbr(inputs: Inputs) -> Table:
         if inputs.number("coat_ior", 1e3) != 1.5:
             inputs.left.add("coat_ior other than 1.5")
         inputs.left.add("coat_darkening")
-    thickness = inputs.number("thin_film_thickness", 10.0) * _NANOMETRES
-    ior = inputs.number("thin_film_ior", 10.0, 1.0)
-    table |= film(thickness, ior, inputs.number("thin_film_weight"))
+    if weight := inputs.number("thin_film_weight"):
+        thickness = inputs.number("thin_film_thickness", 10.0) * _NANOMETRES
+        table |= film(thickness, inputs.number("thin_film_ior", 10.0, 1.0), weight)
     table |= fibres(inputs, "fuzz_weight", "fuzz_color", "fuzz_roughness")
     table |= emission(inputs, "emission_luminance", "emission_color")
     table |= opacity(inputs, "geometry_opacity")
@@ -101,3 +104,9 @@ def _leaf(inputs: Inputs) -> Table:
     share = inputs.number("subsurface_weight")
     color = list(inputs.three("subsurface_color"))
     return {"diffuse_transmission": share / 2, "diffuse_transmission_color": color}
+
+
+def _alphas(roughness: float, anisotropy: float) -> tuple[float, float]:
+    """Return the alphas of GGX along and across the grain: OpenPBR 1.1, "Microfacet model"."""
+    along = roughness**2 * math.sqrt(2 / (1 + (1 - anisotropy) ** 2))
+    return along, (1 - anisotropy) * along

@@ -5,7 +5,7 @@ https://openusd.org/release/spec_usdpreviewsurface.html
 
 import math
 
-from glrt.scene.model_files.networks.inputs import Defaults, Inputs
+from glrt.scene.model_files.networks.inputs import BRIGHTEST, Defaults, Inputs
 from glrt.scene.model_files.networks.nodes import Table
 
 DEFAULTS: Defaults = {
@@ -21,7 +21,6 @@ DEFAULTS: Defaults = {
     "opacityThreshold": 0.0,
     "ior": 1.5,
 }
-BRIGHTEST = 1e9  # radiance
 _LARGEST_F0 = 0.99  # of an index of refraction of 399
 
 

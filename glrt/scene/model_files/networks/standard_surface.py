@@ -1,5 +1,7 @@
 """Autodesk's Standard Surface as a principled material: https://autodesk.github.io/standard-surface/."""
 
+import math
+
 from glrt.scene.model_files.networks.inputs import Defaults, Inputs
 from glrt.scene.model_files.networks.layered import (
     base_color,
@@ -69,12 +71,13 @@ _TURN = 360.0  # degrees of a rotation of 1
 def standard_surface(inputs: Inputs) -> Table:
     """Return the table of a material."""
     inputs.report(*_WITHOUT_COUNTERPART)
+    inputs.report_vectors("coat_normal", "tangent")
     base = weighted(inputs, "base", "base_color")
     base = base_color(inputs, base, "subsurface", "subsurface_color")
     base = coated(inputs, "coat", "coat_color", base)
     is_thin = bool(inputs.number("thin_walled"))
     table: Table = {"metallic": inputs.number_key(inputs.found("metalness"), "metalness")}
-    table |= facets(inputs, "specular_roughness", "specular_anisotropy", is_open_pbr=False)
+    table |= facets(inputs, "specular_roughness", "specular_anisotropy", _alphas)
     if "anisotropy" in table:
         table["anisotropy_rotation"] = inputs.number("specular_rotation") * _TURN
     table["specular"] = inputs.number("specular")
@@ -95,3 +98,9 @@ def standard_surface(inputs: Inputs) -> Table:
     if normal := inputs.normal_key("normal"):
         table["normal"] = normal
     return table
+
+
+def _alphas(roughness: float, anisotropy: float) -> tuple[float, float]:
+    """Return the alphas of GGX along and across the grain: roughness_anisotropy of MaterialX."""
+    aspect = math.sqrt(1 - min(anisotropy, 0.98))
+    return min(roughness**2 / aspect, 1.0), roughness**2 * aspect
