@@ -76,6 +76,7 @@ _ALL = (
     Case("bright", "Probes in a room that hardly absorbs", probes.white),
     Case("sun", "A sun of one pixel in an image of the sky", sky.sun),
     Case("rough", "The light that rough glass keeps", rough_glass.furnace),
+    Case("panes", "The light that rough panes keep", rough_glass.panes),
     Case("plastic", "The light that white plastic keeps", rough_glass.grazing),
     Case("brushed", "The light that white brushed metal keeps", rough_glass.brushed),
     Case("soap", "The light that white plastic under a thin film gains", rough_glass.soap),

@@ -207,12 +207,21 @@ _ALL = f"""{_ONCE}
 
 def furnace(lab: Lab) -> Sweep:
     """Share of light that rough glass loses or gains: the worst of twelve directions."""
+    return _furnace(lab, is_thin=False)
+
+
+def panes(lab: Lab) -> Sweep:
+    """Share of light that a rough pane loses or gains: the worst of twelve directions."""
+    return _furnace(lab, is_thin=True)
+
+
+def _furnace(lab: Lab, is_thin: bool) -> Sweep:
     x = [1e-3, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0]
     count = lab.count(1 << 16, 1 << 15)
     ways = {"glrt: what facets lose comes back": _ALL, "facets that scatter once": _ONCE}
     errors: dict[str, list[float]] = {name: [] for name in ways}
     for roughness in x:
-        materials = {"glass": {**glass(INDEX), "roughness": roughness}}
+        materials = {"glass": {**glass(INDEX), "roughness": roughness, "thin": is_thin}}
         scene = scene_of([sphere([0, 0, -3], 1, "glass")], materials)
         for name, way in ways.items():
             errors[name].append(_error(lab, scene, _VERTEX + way, count))

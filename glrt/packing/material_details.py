@@ -16,7 +16,7 @@ from glrt.plan.facts import SceneFacts
 from glrt.scene.materials import facets, gloss
 from glrt.scene.materials.conductors import Conductor
 from glrt.scene.materials.dielectric import Dielectric
-from glrt.scene.materials.facets import STEPS, facet_loss, mean_loss
+from glrt.scene.materials.facets import STEPS, FacetLoss, facet_loss, mean_loss, pane_loss
 from glrt.scene.materials.gloss import (
     ROUGHNESS_STEPS,
     FacetShares,
@@ -76,17 +76,32 @@ Finished = tuple[str, Principled, FacetShares]  # a material with its name and o
 
 def _pack_glasses(facts: SceneFacts, albedos: Albedos) -> Array:
     """Return rows of the struct Glass, and append the albedos of their facets to `albedos`."""
-    glasses = facts.glasses.values()
-    rows = np.zeros(len(glasses), STRUCTS["Glass"])
-    for row, glass in zip(rows, glasses, strict=True):
-        row["absorption"], row["ior"] = glass.absorption, glass.ior
+    glasses = list(facts.glasses.values())
+    nested = glasses[: len(facts.nested)]
+    around = [(glass, 1.0) for glass in glasses]  # each with the index of what lies around it
+    first_pairs = []
+    for place, glass in enumerate(glasses):
+        first_pairs.append(len(around))
+        if glass.alpha:
+            around += [(glass, other.ior) for other in nested[place + 1 :]]
+    rows = np.zeros(len(around), STRUCTS["Glass"])
+    for row, glass, first in zip(rows, glasses, first_pairs, strict=False):
+        row["absorption"], row["ior"], row["first_pair"] = glass.absorption, glass.ior, first
+    for row, (glass, index) in zip(rows, around, strict=True):
         row["first_albedo"] = CONSTANTS["NO_DETAILS"]
-        if loss := facet_loss(glass.alpha, glass.ior) if glass.alpha else None:
+        if loss := _loss(glass, index):
             row["first_albedo"] = ALBEDOS * len(albedos)
             row["mean_outer"], row["mean_inner"] = loss.means
             row["crossing_outer"], row["crossing_inner"] = loss.crossing
             albedos.append(loss.albedos)
     return rows
+
+
+def _loss(glass: Dielectric, around: float) -> FacetLoss | None:
+    """Return the losses of facets between glass and a material with the index `around`."""
+    if not glass.alpha:
+        return None
+    return (pane_loss if glass.thin else facet_loss)(glass.alpha, glass.ior / around)
 
 
 def gloss_rows(facts: SceneFacts) -> dict[str, int]:

@@ -114,7 +114,7 @@ def _glass_parts(facts: SceneFacts) -> Array:
     rows = np.zeros(len(parts), STRUCTS["Material"])
     for row, (name, glass) in zip(rows, parts.items(), strict=True):
         pack_dielectric(row, glass)
-        row["details"] = CONSTANTS["NO_DETAILS"] if glass.thin else number_of.get(name, -1)
+        row["details"] = number_of.get(name, CONSTANTS["NO_DETAILS"])
     return rows
 
 

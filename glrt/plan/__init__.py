@@ -12,6 +12,7 @@ Modules, each importing only what stands above it:
 - probe_weights: weight of each update of probes
 - case: a scene with its settings
 - reasons: why a feature is compiled in or left out, in words
+- rows: rows of the table of features: when a kernel needs each
 - features: features compiled into a kernel
 - plan: the plan of a render: features and light layers
 - explanation: why each feature is compiled in

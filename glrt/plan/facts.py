@@ -216,8 +216,13 @@ class SceneFacts:
 
     @property
     def rough_glasses(self) -> list[str]:
-        """Names of the glasses with a rough surface."""
-        return self._glasses(lambda glass: glass.alpha > 0)
+        """Names of the rough glasses that enclose a volume."""
+        return self._glasses(lambda glass: glass.alpha > 0 and not glass.thin)
+
+    @property
+    def rough_panes(self) -> list[str]:
+        """Names of the rough glasses that are thin panes."""
+        return self._glasses(lambda glass: glass.alpha > 0 and glass.thin)
 
     @property
     def panes(self) -> list[str]:

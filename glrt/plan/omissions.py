@@ -120,7 +120,7 @@ def _omissions(facts: SceneFacts, method: str, is_ambient: bool) -> Iterator[str
         yield "rough metal is a mirror"
     if traits.has_rough and any(getattr(metal, "anisotropy", 0) > 0 for metal in metals):
         yield "highlights of metal are alike in all directions"
-    if not is_local and not traits.has_rough and facts.rough_glasses:
+    if not is_local and not traits.has_rough and (facts.rough_glasses or facts.rough_panes):
         yield "rough glass is smooth"
     if traits.splits and facts.lobes.dispersing:
         yield "glass refracts all colors alike"

@@ -132,6 +132,7 @@ def _choice(found: SceneFacts) -> dict[str, bool | int]:
         "HAS_TRANSLUCENCY": bool(found.lobes.translucent),
         "HAS_DISPERSION": bool(found.lobes.dispersing),
         "HAS_ROUGH_GLASS": bool(found.rough_glasses),
+        "HAS_ROUGH_PANE": bool(found.rough_panes),
         "HAS_ATTENUATION": bool(found.tinted),
         "HAS_NESTED": bool(found.nested),
         "NESTED_GLASSES": len(found.nested),

@@ -11,6 +11,7 @@ from glrt.scene.materials.nothing import Nothing
 from glrt.scene.schema.fields import SceneFields
 from glrt.scene.schema.validation import Place
 from glrt.scene.shapes.mesh import Mesh
+from glrt.scene.volumes import has_ranks
 
 
 def object_problems(scene: SceneFields) -> Iterator[tuple[Place, str]]:
@@ -44,6 +45,11 @@ def medium_problems(scene: SceneFields) -> Iterator[tuple[Place, str]]:
     """Yield place and advice for media that do not go with the objects that hold them."""
     if scene.medium is not None:
         yield from _medium_problem(scene, ("medium",), scene.medium, is_endless=True)
+    if has_ranks(scene):
+        for name in dict.fromkeys(item.material for item in scene.objects):
+            glass = glass_of(scene.materials.get(name))
+            if glass and glass.priority is not None and glass.roughness > 0:
+                yield ("materials", name, "priority"), _ROUGH_PRIORITY_ADVICE
     for index, item in enumerate(scene.objects):
         material = scene.materials.get(item.material)
         if isinstance(material, Nothing) and not item.encloses:
@@ -113,6 +119,10 @@ _TINTED_ADVICE = (
 )
 _ROUGH_ADVICE = (
     "rough glass around a medium is not supported; use smooth glass, or glass without a medium"
+)
+_ROUGH_PRIORITY_ADVICE = (
+    "of rough glass is not supported in a scene with media; leave the priority, the roughness or "
+    "the media out"
 )
 _ENDLESS_ADVICE = (
     "shines in a channel in which the medium neither scatters nor absorbs, and it has no end: that "

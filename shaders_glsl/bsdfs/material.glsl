@@ -3,7 +3,7 @@
 
 bool is_delta(Material material) {
     if (HAS_DIELECTRIC && material.kind == DIELECTRIC) return !is_rough_glass(material);
-    if (HAS_PANE && material.kind == PANE) return true;
+    if (HAS_PANE && material.kind == PANE) return !is_rough_glass(material);
     return HAS_MIRROR && material.kind == METAL && material.alpha == 0.0;
 }
 
@@ -11,6 +11,7 @@ vec3 eval_material(Vertex vertex, vec3 wi) {
     Material material = vertex.material;
     if (HAS_ROUGH_METAL && material.kind == METAL) return eval_metal(vertex, wi);
     if (HAS_ROUGH_GLASS && material.kind == DIELECTRIC) return eval_rough_dielectric(vertex, wi);
+    if (HAS_ROUGH_PANE && material.kind == PANE) return eval_rough_dielectric(vertex, wi);
     if (HAS_PRINCIPLED && material.kind == PRINCIPLED) return eval_principled(vertex, wi);
     return eval_matte(material.color, wi);
 }
@@ -18,6 +19,7 @@ vec3 eval_material(Vertex vertex, vec3 wi) {
 float pdf_material(Vertex vertex, vec3 wi) {
     if (HAS_ROUGH_METAL && vertex.material.kind == METAL) return pdf_metal(vertex, wi);
     if (HAS_ROUGH_GLASS && vertex.material.kind == DIELECTRIC) return pdf_rough_dielectric(vertex, wi);
+    if (HAS_ROUGH_PANE && vertex.material.kind == PANE) return pdf_rough_dielectric(vertex, wi);
     if (HAS_PRINCIPLED && vertex.material.kind == PRINCIPLED) return pdf_principled(vertex, wi);
     return pdf_matte(wi);
 }
@@ -31,7 +33,12 @@ Scattering sample_material(Vertex vertex, inout Sampler rng) {
         vec2 u = next_2d(rng);
         return sample_rough_dielectric(vertex, choice, u);
     }
-    if (HAS_PANE && material.kind == PANE) return sample_pane(vertex, next_1d(rng));
+    if (HAS_PANE && material.kind == PANE) {
+        float choice = next_1d(rng);
+        if (!is_rough_glass(material)) return sample_pane(vertex, choice);
+        vec2 u = next_2d(rng);
+        return sample_rough_dielectric(vertex, choice, u);
+    }
     if (HAS_PRINCIPLED && material.kind == PRINCIPLED) {
         float choice = next_1d(rng);
         vec2 u = next_2d(rng);

@@ -1,12 +1,19 @@
-// A rough interface between two dielectrics: GGX facets that reflect and refract (Walter et al., "Microfacet Models
+// Rough glass. An interface between two dielectrics has GGX facets that reflect and refract (Walter et al., "Microfacet Models
 // for Refraction through Rough Surfaces", EGSR 2007). They are sampled by visible normals, and
 // G2 = 1 / (1 + L(wo) + L(wi)) for both. Light that facets lose to each other comes back as one lobe on each side:
 // a share of (1 - E(wo)) (1 - E(wi)) cos wi / (PI (1 - mean E)), where E is the directional albedo of the facets
 // (Kulla and Conty, "Revisiting Physically Based Shading at Imageworks", 2017). So the whole is reciprocal.
 // Values here are of energy: radiance that crosses also scales by eta^2.
+// Rough panes have facets of their own (pane.glsl), and get the light back that these lose.
 
 bool is_rough_glass(Material material) {
+    if (HAS_ROUGH_PANE && material.kind == PANE) return material.alpha > 0.0;
     return HAS_ROUGH_GLASS && material.kind == DIELECTRIC && material.alpha > 0.0;
+}
+
+// Whether rough glass is a pane.
+bool has_pane_facets(Material material) {
+    return HAS_ROUGH_PANE && (!HAS_ROUGH_GLASS || material.kind == PANE);
 }
 
 bool has_lost_light(Glass glass) {
@@ -19,14 +26,9 @@ float facet_albedo(Glass glass, bool outside, float cosine) {
     return outside ? both.x : both.y;
 }
 
-// Value and density.
-struct Lobe {
-    float value;
-    float pdf;
-};
-
 // Value and density of facets with the normal h, which is on the side of wo.
 Lobe facet_lobe(Vertex vertex, vec3 h, vec3 wi) {
+    if (has_pane_facets(vertex.material)) return pane_facet_lobe(vertex, h, wi);
     float alpha = vertex.material.alpha;
     float cos_o = dot(vertex.wo, h);
     float cos_i = dot(wi, h);
@@ -47,6 +49,7 @@ Lobe facet_lobe(Vertex vertex, vec3 h, vec3 wi) {
 
 // The normal of facets that send wi to wo.
 vec3 glass_half(Vertex vertex, vec3 wi) {
+    if (has_pane_facets(vertex.material)) return normalized(vertex.wo + vec3(wi.xy, abs(wi.z)));
     float eta = wi.z < 0.0 ? vertex.eta : 1.0;
     vec3 h = normalized(eta * vertex.wo + wi);
     if (h.z < 0.0) h = -h;
@@ -72,6 +75,7 @@ Lobe glass_lobe(Vertex vertex, vec3 h, vec3 wi) {
 }
 
 float glass_scale(Vertex vertex, vec3 wi) {
+    if (has_pane_facets(vertex.material)) return 1.0;
     float scale = wi.z < 0.0 ? vertex.eta * vertex.eta : 1.0;
     return scale;
 }
@@ -89,6 +93,7 @@ float pdf_rough_dielectric(Vertex vertex, vec3 wi) {
 
 // The direction to which a facet with the normal h reflects or refracts; 0 if to the wrong side.
 vec3 beyond_facet(Vertex vertex, vec3 h, float u) {
+    if (has_pane_facets(vertex.material)) return beyond_pane_facet(vertex, h, u);
     float cos_o = dot(vertex.wo, h);
     bool crosses = u >= fresnel(cos_o, vertex.eta);
     float cos_t = sqrt(max(refracted_cos2(cos_o, vertex.eta), 0.0));

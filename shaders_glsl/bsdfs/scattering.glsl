@@ -52,6 +52,12 @@ vec3 crossing_tint(Material material) {
     return HAS_TRANSMISSION ? material.color : vec3(1.0);
 }
 
+// Value of a BSDF, which contains the cosine, and density.
+struct Lobe {
+    float value;
+    float pdf;
+};
+
 Scattering absorbed() {
     return Scattering(vec3(0.0), vec3(0.0), 0.0, 1.0, false);
 }

@@ -31,6 +31,12 @@ float ior_around(uint counts) {
     return glass_at(glass).ior;
 }
 
+// The row with the facets of rough glass where another glass, or air, lies around it.
+int facets_against(int glass, uint around) {
+    int other = glass_around(around);
+    return other > glass ? glass_at(glass).first_pair + other - glass - 1 : glass;
+}
+
 vec3 absorption_of_glass(int details) {
     if (details == NO_DETAILS) return vec3(0.0);
     return glass_at(details).absorption;

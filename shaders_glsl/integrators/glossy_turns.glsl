@@ -8,7 +8,7 @@
 //     V(wo, wi) / |wi . g|   and   PI p(wo, wi) / |wi . g|
 // Nothing here requires a symmetric V. Normals for shading are contained in V and p.
 
-const bool HAS_GLOSSY = HAS_ROUGH_METAL || HAS_ROUGH_GLASS || HAS_PRINCIPLED;
+const bool HAS_GLOSSY = HAS_ROUGH_METAL || HAS_ROUGH_GLASS || HAS_ROUGH_PANE || HAS_PRINCIPLED;
 
 bool is_glossy(Material material) { return HAS_GLOSSY && material.kind != MATTE && !is_delta(material); }
 

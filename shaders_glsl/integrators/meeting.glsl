@@ -52,6 +52,10 @@ Meeting meet(Path path, Surface surface, Material material, bool by_shading) {
     if (is_nested(material)) {
         beyond = counts_beyond(path.counts, material.details, side > 0.0);
         vertex.eta = ior_around(path.counts) / ior_around(beyond);
+        if (is_rough_glass(material)) {
+            uint around = side > 0.0 ? path.counts : beyond;
+            vertex.material.details = facets_against(material.details, around);
+        }
     }
     vec3 behind = absorption_behind(path, material, side > 0.0);
     Ray ray = Ray(surface.position, direction, surface.shape, side < 0.0);

@@ -19,8 +19,7 @@ float circle_of_confusion(Camera camera, float depth, vec2 size) {
 
 // Whether reflected or refracted directions stay close together.
 bool is_specular(Material material) {
-    if (material.kind == MATTE) return false;
-    return material.kind == PANE || material.alpha < 0.25;
+    return material.kind != MATTE && material.alpha < 0.25;
 }
 
 int surface_flags(Material material, float depth) {

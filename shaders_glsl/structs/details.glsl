@@ -11,6 +11,7 @@ struct Conductor {
 };
 
 // Glass that is rough, absorbs light, or has a priority over other glass. Glass of the highest priority stands first.
+// Rows after them hold the facets of rough glass with a priority against each glass of a lower priority.
 struct Glass {
     vec3 absorption;       // per unit length; 0: clear
     int first_albedo;      // first row of the albedos of its facets; below 0: light that facets lose is not restored
@@ -19,6 +20,7 @@ struct Glass {
     float crossing_outer;  // share of the lost light from outside that crosses
     float crossing_inner;
     float ior;             // index of refraction, inside over air
+    int first_pair;        // of rough glass with a priority: first row of its facets against other glass
 };
 
 // A principled surface: all but its colour and the alpha of its facets.

@@ -75,6 +75,7 @@ MATERIALS: dict[str, dict[str, Any]] = {
     "brushed": {"type": "metal", "color": [1, 1, 1], "roughness": 0.5, "anisotropy": 0.5},
     "glass": glass(),
     "frosted": glass(roughness=0.5),
+    "bathroom": glass(roughness=0.5, thin=True),
     "pane": glass(thin=True),
     "tinted": glass(attenuation_color=[0.5] * 3, attenuation_distance=1.0),
     "water": glass(1.33, priority=1),
@@ -147,7 +148,7 @@ def needs_with(flags: set[str]) -> Needs:
     made_of |= {"HAS_PRINCIPLED": "plastic", "HAS_COAT": "painted", "HAS_TRANSMISSION": "wax"}
     made_of |= {"HAS_ATTENUATION": "tinted", "HAS_NESTED": "water", "HAS_IRIDESCENCE": "soapy"}
     made_of |= {"HAS_NONE": "none", "HAS_COLOR_MAP": "checked", "HAS_EMISSION_MAP": "glowing"}
-    made_of |= {"HAS_SHEEN": "velvet", "HAS_DISPERSION": "prism"}
+    made_of |= {"HAS_SHEEN": "velvet", "HAS_DISPERSION": "prism", "HAS_ROUGH_PANE": "bathroom"}
     made_of |= {"HAS_TRANSLUCENCY": "leaf"}
     made_of |= {"HAS_GLOSS_MAP": "worn", "HAS_NORMAL_MAP": "bumpy"}
     made_of |= {"HAS_COVERAGE_MAP": "torn", "HAS_HOLE": "gauze", "HAS_TRANSMISSION_MAP": "label"}

@@ -18,9 +18,12 @@ from glrt.rendering.particle_tracer import ParticleTracer
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.schedule import DispatchRange, Schedule
 from tests.support.builders import (
+    MATTE,
     box_of_quads,
     glass,
     lamp,
+    plane,
+    quad,
     scene_of,
     sphere,
 )
@@ -55,6 +58,29 @@ def test_a_link_through_rough_glass_knows_what_lies_on_each_side(context: Contex
     without = rendered(scene, context, 1024, seed=1, bounces=4)
     image = rendered(scene, context, 1024, bounces=4, **ON, particles=1.0)
     assert_agree(image, without, within=0.03)
+
+
+@pytest.mark.slow
+def test_particles_pass_rough_panes_as_paths_do(context: Context) -> None:
+    """A lamp behind a rough pane, and a ball of glass that focuses its light onto the floor."""
+    materials = {
+        "pane": glass(1.5, roughness=0.6, thin=True),
+        "glass": glass(1.5),
+        "lamp": lamp(20.0),
+        "floor": MATTE,
+    }
+    things = [
+        quad([-1.2, -1, -0.6], [2.4, 0, 0], [0, 2, 0.3], "pane"),
+        sphere([0.3, 0.2, -1.8], 0.4, "lamp"),
+        sphere([0.4, -0.6, 0.5], 0.4, "glass"),
+        plane([0, -1, 0], [0, 1, 0], "floor"),
+    ]
+    camera = {"position": [-1, 1.5, 5], "look_at": [0, -0.4, 0], "fov": 35}
+    scene = scene_of(things, materials, camera)
+    size: dict[str, Any] = {"width": 32, "height": 32, "bounces": 5}
+    without = rendered(scene, context, 4096, seed=1, **size)
+    image = rendered(scene, context, 1024, **size, **ON, particles=1.0)
+    assert_agree(image, without, within=0.04)
 
 
 @pytest.mark.slow

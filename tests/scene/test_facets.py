@@ -46,3 +46,19 @@ def test_facets_between_tabled_roughnesses_are_near_their_integrals() -> None:
         exact = facet_shares((step / ROUGHNESS_STEPS) ** 2)
         assert_allclose(table["head_on"][step], exact.head_on, atol=1e-3)
         assert_allclose(table["grazing"][step], exact.grazing, atol=1e-3)
+
+
+@pytest.mark.parametrize("ior", [1.2, 1.5, 2.4])
+def test_light_that_a_rough_pane_loses_divides_as_even_light_does(ior: float) -> None:
+    """The share of even light that a smooth pane lets through, by Gauss and Legendre."""
+    nodes, weights = np.polynomial.legendre.leggauss(64)
+    cosine = (nodes + 1) / 2
+    bent = np.sqrt(1 - (1 - cosine**2) / ior**2)
+    across = ((cosine - ior * bent) / (cosine + ior * bent)) ** 2
+    along = ((bent - ior * cosine) / (bent + ior * cosine)) ** 2
+    face = (across + along) / 2
+    through = weights @ (cosine * (1 - 2 * face / (1 + face)))
+    loss = facets.pane_loss(0.5, ior)
+    assert loss is not None
+    assert loss.crossing == pytest.approx((through, through), abs=1e-5)
+    assert loss.albedos[0] is loss.albedos[1]

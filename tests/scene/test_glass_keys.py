@@ -35,13 +35,11 @@ BALL = sphere([0, 0, -3], 1, "glass")
         ({"attenuation_color": [1, 1, 2], "attenuation_distance": 1.0}, "attenuation_color"),
         ({"attenuation_color": [1, 1, 1], "attenuation_distance": 0.0}, "attenuation_distance"),
         ({"roughness": 1.5}, "roughness"),
-        ({"thin": True, "roughness": 0.2}, "a thin pane has no roughness"),
         ({"thin": True, "priority": 0}, "a thin pane has no priority"),
         (
             {"thin": True, "attenuation_color": [1, 1, 1], "attenuation_distance": 1.0},
             "a thin pane has no attenuation_distance",
         ),
-        ({"priority": 1, "roughness": 0.2}, "rough glass has no priority"),
         ({"priority": 1.5}, "priority"),
     ],
 )

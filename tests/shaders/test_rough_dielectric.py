@@ -23,10 +23,10 @@ SETUP = """
     Vertex vertex = vertex_of(up, wo, material_at(0), outside == 1);"""
 
 
-def rough(roughness: float, ior: float) -> dict[str, Any]:
+def rough(roughness: float, ior: float, **more: Any) -> dict[str, Any]:
     """A scene of one ball of rough glass, as an input of call_glsl."""
     ball = sphere([0, 0, -3], 1, "glass")
-    return {"scene": scene_of([ball], {"glass": glass(ior, roughness=roughness)})}
+    return {"scene": scene_of([ball], {"glass": glass(ior, roughness=roughness, **more)})}
 
 
 def directions(count: int, seed: int) -> Array:

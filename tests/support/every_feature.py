@@ -22,6 +22,7 @@ STILL_LIFE = {
     **MATERIALS,
     "mirror": {"type": "metal", "color": [0.9, 0.8, 0.7]},
     "prism": {"type": "dielectric", "dispersion": 2.0},
+    "bathroom": {"type": "dielectric", "thin": True, "roughness": 0.4},
     "brass": {"type": "metal", "color": [0.9, 0.7, 0.3], "roughness": 0.4},
     "brushed": {
         "type": "principled",
@@ -55,6 +56,7 @@ def still_life() -> Scene:
         cylinder([1.3, -1, -2.6], [1.1, 0.2, -2.9], 0.3, "gold"),
         disk([0, 0.3, -3.5], [0.3, 0.2, 1], 0.6, "brushed"),
         quad([-0.4, -0.9, -1.6], [0.8, 0, 0], [0, 0.7, -0.2], "pane"),
+        quad([0.7, -0.9, -1.7], [0.5, 0, 0.1], [0, 0.6, 0], "bathroom"),
         sphere([0.1, -0.8, -1.8], 0.2, "frosted"),
         sphere([-0.25, -0.85, -1.75], 0.13, "prism"),
         sphere([1.1, 1.4, -2.0], 0.3, "lamp"),

@@ -73,6 +73,7 @@ PROBES = {
     "HAS_TRANSMISSION_MAP": ("textures/mapped.glsl", "found.crossed *=", "found.crossed *= {} *"),
     "HAS_HOLE": ("textures/holes.glsl", ">= material.coverage", ">= {} * material.coverage"),
     "HAS_PANE": ("bsdfs/pane.glsl", "2.0 * face /", "{} * face /"),
+    "HAS_ROUGH_PANE": ("bsdfs/pane.glsl", "2.0 * cosine * h", "{} * cosine * h"),
     "HAS_ATTENUATION": (
         "integrators/meeting.glsl",
         "path.absorption, distance",
@@ -161,6 +162,7 @@ NEEDED_TOO = {
     "HAS_TRANSFER": {"HAS_GRID", "HAS_MEDIA"},
     "SAMPLE_SUN": {"HAS_SUN"},
     "HAS_ROUGH_GLASS": {"HAS_DIELECTRIC"},
+    "HAS_ROUGH_PANE": {"HAS_PANE"},
     "HAS_ATTENUATION": {"HAS_DIELECTRIC"},
     "HAS_DISPERSION": {"HAS_DIELECTRIC"},
     "HAS_NESTED": {"HAS_DIELECTRIC"},
@@ -194,6 +196,7 @@ GONE_TOO = {
     "HAS_DIELECTRIC": {"HAS_ROUGH_GLASS", "HAS_ATTENUATION", "HAS_NESTED", "HAS_TRANSMISSION"}
     | {"HAS_TRANSMISSION_MAP", "HAS_DISPERSION"},
     "HAS_TRANSMISSION": {"HAS_TRANSMISSION_MAP"},
+    "HAS_PANE": {"HAS_ROUGH_PANE"},
     "HAS_QUAD": {"HAS_QUAD_LIGHT", "QUADS_BY_AREA"},
     "HAS_QUAD_LIGHT": {"QUADS_BY_AREA"},
     "HAS_DISK": {"HAS_DISK_LIGHT"},

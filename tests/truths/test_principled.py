@@ -284,7 +284,7 @@ def test_a_scene_asks_for_glass_where_some_is_glass() -> None:
     ("keys", "said"),
     [
         ({"transmission": 0.5, "clearcoat": 1.0}, "a coat over transmission"),
-        ({"transmission": 0.5, "thin": True}, "a thin pane has no roughness"),
+        ({"transmission": 0.5, "thin": True, "dispersion": 1.0}, "a thin pane has no dispersion"),
         ({"transmission": 1.0, "attenuation_distance": 1.0}, "go together"),
         ({"transmission": 2.0}, "transmission"),
         ({"alpha": 0.5, "emission": [1.0, 1.0, 1.0]}, "a lamp has no alpha"),

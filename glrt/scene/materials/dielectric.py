@@ -40,7 +40,8 @@ class Dielectric(Surface):
     dispersion: Dispersion = Field(0.0, description=DISPERSION)
     thin: Annotated[bool, Editable(Cost.RECOMPILE)] = Field(
         False,
-        description="whether the surface is a pane, both faces at once: light passes it straight",
+        description="whether the surface is a pane, both faces at once: light passes a smooth one "
+        "straight",
     )
     priority: Annotated[int | None, Field(ge=-1000, le=1000), Editable(Cost.RECOMPILE)] = Field(
         None,
@@ -74,15 +75,12 @@ class Dielectric(Surface):
     def _is_simple_where_it_must_be(self) -> Self:
         if self.thin:
             has = {
-                "roughness": self.roughness > 0,
                 "attenuation_distance": self.attenuation_distance is not None,
                 "priority": self.priority is not None,
                 "dispersion": self.dispersion > 0,
             }
             for key in (key for key, is_given in has.items() if is_given):
                 raise ValueError(f"a thin pane has no {key}; leave that out, or thin")
-        if self.priority is not None and self.roughness > 0:
-            raise ValueError("rough glass has no priority; leave one of the two out")
         if self.dispersion > 0:
             self._disperses_as_known()
         return self
@@ -99,10 +97,12 @@ class Dielectric(Surface):
     def alpha(self) -> float:
         """The alpha of GGX; 0 if it is smooth, or if float32 cannot distinguish it from smooth.
 
-        Refraction spreads light over an angle of about alpha times (ior - 1).
+        Refraction spreads light over an angle of about alpha times (ior - 1), and a pane over
+        alpha.
         """
         alpha = self.roughness**2
-        return alpha if alpha * min(1.0, abs(self.ior - 1)) >= SMOOTHEST else 0.0
+        spread = 1.0 if self.thin else min(1.0, abs(self.ior - 1))
+        return alpha if alpha * spread >= SMOOTHEST else 0.0
 
     @property
     def spread(self) -> float:

@@ -14,6 +14,7 @@ Array = np.ndarray[Any, np.dtype[np.float64]]
 STEPS = 64  # of the root of the cosine, between albedos: ALBEDO_STEPS in the kernel
 LEAST_LOSS = 1e-4  # share of even light: smaller losses are ignored
 LATTICE = 4181, 2584  # points and steps of a lattice by neighbours in Fibonacci's sequence
+EVEN_COSINES = np.sqrt((np.arange(100_000) + 0.5) / 100_000)  # of light from everywhere
 
 
 class FacetLoss(NamedTuple):
@@ -34,6 +35,20 @@ def facet_loss(alpha: float, ior: float) -> FacetLoss | None:
     return FacetLoss(albedos, means, _crossing(ior, *means))
 
 
+@lru_cache(maxsize=64)
+def pane_loss(alpha: float, ior: float) -> FacetLoss | None:
+    """Return the losses of a rough pane, whose facets are panes; None below LEAST_LOSS.
+
+    Both sides lose the same, as much as facets that reflect all light.
+    """
+    albedo = _mirrored_albedo(alpha)
+    if (mean := mean_loss(albedo)) < LEAST_LOSS:
+        return None
+    face = _fresnel(EVEN_COSINES, 1 / ior)
+    crossing = 1 - float((2 * face / (1 + face)).mean())
+    return FacetLoss((albedo, albedo), (mean, mean), (crossing, crossing))
+
+
 def _crossing(ior: float, outer: float, inner: float) -> tuple[float, float]:
     """Return the share of lost light that crosses to the other side, from outside and from inside.
 
@@ -47,8 +62,7 @@ def _crossing(ior: float, outer: float, inner: float) -> tuple[float, float]:
 
 def _even_reflectance(eta: float) -> float:
     """Return the Fresnel reflectance of light that is equally bright everywhere (midpoint rule)."""
-    cosine = np.sqrt((np.arange(100_000) + 0.5) / 100_000)
-    return float(_fresnel(cosine, eta).mean())
+    return float(_fresnel(EVEN_COSINES, eta).mean())
 
 
 def mean_loss(albedo: Array) -> float:
@@ -70,10 +84,7 @@ def _albedo(alpha: float, eta: float) -> Array:
 
     It is the mean weight of samples by visible normals.
     """
-    cosine = np.maximum(np.linspace(0, 1, STEPS + 1) ** 2, 1e-9)[:, None]
-    wo = np.stack([np.sqrt(1 - cosine**2), 0 * cosine, cosine], axis=-1)
-    normal = visible_normals(alpha, wo)
-    along = np.sum(wo * normal, axis=-1, keepdims=True)
+    wo, normal, along = _seen_facets(alpha)
     reflectance = _fresnel(along, eta)
     cos_t = np.sqrt(np.maximum(1 - eta**2 * (1 - along**2), 0))
     mirrored = 2 * along * normal - wo
@@ -83,6 +94,25 @@ def _albedo(alpha: float, eta: float) -> Array:
         for part, sign, wi in ((reflectance, 1, mirrored), (1 - reflectance, -1, refracted))
     ]
     return np.asarray((share[0] + share[1]).mean(axis=1).clip(0, 1))
+
+
+def _mirrored_albedo(alpha: float) -> Array:
+    """Return the albedo of facets that reflect all light, as `_albedo` does."""
+    wo, normal, along = _seen_facets(alpha)
+    up = (2 * along * normal - wo)[..., 2]
+    share = (up > 0) * weight(alpha, wo[..., 2], np.abs(up))
+    return np.asarray(share.mean(axis=1).clip(0, 1))
+
+
+def _seen_facets(alpha: float) -> tuple[Array, Array, Array]:
+    """Return directions at even steps of the root of the cosine, and the facets seen from there.
+
+    The arrays hold directions, normals of facets, and the cosines between them.
+    """
+    cosine = np.maximum(np.linspace(0, 1, STEPS + 1) ** 2, 1e-9)[:, None]
+    wo = np.stack([np.sqrt(1 - cosine**2), 0 * cosine, cosine], axis=-1)
+    normal = visible_normals(alpha, wo)
+    return wo, normal, np.sum(wo * normal, axis=-1, keepdims=True)
 
 
 def visible_normals(alpha: float, wo: Array, lattice: tuple[int, int] = LATTICE) -> Array:

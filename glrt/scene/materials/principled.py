@@ -59,7 +59,7 @@ class Principled(Opaque):
     )
     dispersion: Dispersion = Field(0.0, description=f"{DISPERSION}; with transmission")
     thin: Annotated[bool, Editable(Cost.RECOMPILE)] = Field(
-        False, description="whether its glass is a pane, which has roughness 0"
+        False, description="whether its glass is a pane: both faces at once"
     )
     alpha: Annotated[Fraction, Editable(Cost.RECOMPILE)] = Field(
         1.0,

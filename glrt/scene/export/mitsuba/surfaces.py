@@ -74,7 +74,9 @@ class Surfaces:
             self._report(f"the priority of {quoted(name)}")
         if material.spread:
             self._report(f"the dispersion of {quoted(name)}")
-        if material.alpha:
+        if material.alpha and material.thin:
+            self._report(f"the roughness of {quoted(name)}, a thin pane")
+        elif material.alpha:
             self._report(f"the light that facets of {quoted(name)} send to each other")
         return glass(material)
 
@@ -131,9 +133,9 @@ def both_sides_of(material: Principled, bsdf: Words) -> Words:
 
 
 def glass(material: Dielectric) -> Words:
-    """Return Mitsuba's own glass; of rough glass, light that meets one facet alone."""
+    """Return Mitsuba's own glass: panes are smooth, and facets lose the light between them."""
     indices = {"int_ior": material.ior, "ext_ior": 1.0}
-    if material.alpha:
+    if material.alpha and not material.thin:
         rough = {"distribution": "ggx", "alpha": material.alpha}
         return {"type": "roughdielectric", **rough, **indices}
     return {"type": "thindielectric" if material.thin else "dielectric", **indices}

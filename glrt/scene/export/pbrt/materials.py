@@ -91,6 +91,8 @@ class Materials:
         if material.spread:
             self._report(f"the dispersion of {quoted(name)}")
         if material.thin:
+            if material.alpha:
+                self._report(f"the roughness of {quoted(name)}, a thin pane")
             return {"string type": "thindielectric", "float eta": material.ior}
         if material.alpha:
             self._report(f"the light that facets of {quoted(name)} send to each other")

@@ -277,10 +277,7 @@ def without_image(look: Look, key: str) -> None:
 
 
 def make_pane(look: Look) -> None:
-    """Let the glass of a material be a pane, which is smooth and encloses nothing."""
+    """Let the glass of a material be a pane, which encloses nothing."""
     for key in ("attenuation_color", "attenuation_distance", "dispersion"):
         look.table.pop(key, None)
-    if look.table["roughness"] != 0.0:
-        look.table["roughness"] = 0.0
-        look.unread.append("roughness of thin glass")
     look.table["thin"] = True
