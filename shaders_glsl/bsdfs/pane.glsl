@@ -18,8 +18,14 @@ Scattering sample_pane(Vertex vertex, float u) {
 }
 
 // Facets of a rough pane, each a pane. Light that passes one leaves in the direction of the light that it reflects,
-// mirrored to the other side of the pane (KHR_materials_transmission of glTF). h: the half vector with wi, or with its
-// mirror image where wi is on the other side.
+// mirrored to the other side of the pane (KHR_materials_transmission of glTF).
+
+// The half vector with wi, or with its mirror image where wi is on the other side.
+vec3 pane_half(Vertex vertex, vec3 wi) {
+    vec3 h = normalized(vertex.wo + vec3(wi.xy, abs(wi.z)));
+    return h;
+}
+
 Lobe pane_facet_lobe(Vertex vertex, vec3 h, vec3 wi) {
     Material material = vertex.material;
     float reflected = pane_reflectance(dot(vertex.wo, h), material.ior);

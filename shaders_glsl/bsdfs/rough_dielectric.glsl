@@ -49,7 +49,7 @@ Lobe facet_lobe(Vertex vertex, vec3 h, vec3 wi) {
 
 // The normal of facets that send wi to wo.
 vec3 glass_half(Vertex vertex, vec3 wi) {
-    if (has_pane_facets(vertex.material)) return normalized(vertex.wo + vec3(wi.xy, abs(wi.z)));
+    if (has_pane_facets(vertex.material)) return pane_half(vertex, wi);
     float eta = wi.z < 0.0 ? vertex.eta : 1.0;
     vec3 h = normalized(eta * vertex.wo + wi);
     if (h.z < 0.0) h = -h;
