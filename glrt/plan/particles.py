@@ -177,7 +177,7 @@ def _is_empty(scene: Scene, sphere: Sphere) -> bool:
 def makes_caustics(material: Material) -> bool:
     """Return whether a material focuses light: glass, or metal that is not too rough."""
     if isinstance(material, Principled):
-        is_metal = material.metallic > 0.5 and 0 < material.facet_alpha <= ROUGHEST
+        is_metal = material.metallic > 0.5 and material.facet_alpha <= ROUGHEST
         return material.glass is not None or is_metal
     if isinstance(material, Metal):
         return material.alpha <= ROUGHEST

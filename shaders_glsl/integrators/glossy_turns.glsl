@@ -12,12 +12,18 @@ const bool HAS_GLOSSY = HAS_ROUGH_METAL || HAS_ROUGH_GLASS || HAS_ROUGH_PANE || 
 
 bool is_glossy(Material material) { return HAS_GLOSSY && material.kind != MATTE && !is_delta(material); }
 
-// Whether particles scatter at a material. They do not where a smooth coat or smooth facets are part of the surface.
-bool carries_particles(Material material) {
-    if (!(HAS_PRINCIPLED && material.kind == PRINCIPLED)) return true;
-    Gloss gloss = gloss_at(material.details);
-    bool is_smooth_coat = HAS_COAT && gloss.coat > 0.0 && gloss.coat_alpha == 0.0;
-    return material.alpha > 0.0 && !is_smooth_coat;
+// Whether a glossy surface scattered by a part that is a delta: a smooth coat or smooth facets. Such a part mirrors a
+// path and a particle with the same chance. Light that it mirrors at a vertex is no light of sampling or of a link there.
+bool is_mirrored(Vertex vertex, float pdf) {
+    return HAS_PRINCIPLED && vertex.material.kind == PRINCIPLED && pdf == 0.0;
+}
+
+// The factor of shading_normals.glsl for such an event; 0 where a path and a particle scatter around different normals.
+float mirrored_turn(Normals at, vec3 wi, vec3 wo) {
+    if (!HAS_SHADING) return 1.0;
+    bool is_flat = is_flat_towards(at, wo);
+    if (is_flat != is_flat_towards(at, wi)) return 0.0;
+    return turn_around(is_flat ? at.facing : at.shading, at.facing, wi, wo, true);
 }
 
 // Normals on the side of w, from normals on either side.

@@ -52,7 +52,11 @@ void turn_particle(inout Particle self, Vertex vertex, Normals normals, Scatteri
     vec3 share = next.weight;
     float turn = 1.0;
     float unlike_matte = 1.0;  // P0 over that of a matte surface, which kappa_of assumes
-    if (is_glossy(vertex.material)) {
+    if (is_mirrored(vertex, next.pdf)) {
+        turn = mirrored_turn(normals, wi, next.direction);
+        share *= turn;
+        if (self.path.depth == 0) self.kappa = 0.0;
+    } else if (is_glossy(vertex.material)) {
         Turn linked = turn_of_link(vertex, normals, wi, next.direction);
         float leaving = dot(next.direction, normals.facing);
         bool is_lost = next.pdf == 0.0 || HAS_SHADING && leaving < 0.0 != next.crosses;
@@ -98,7 +102,6 @@ bool extend_particle(inout Particle self, bool by_spheres, inout Sampler rng) {
         return true;
     }
     Material material = part_met(whole, rng);
-    if (!carries_particles(material)) return false;
     Meeting at = meet(self.path, surface, material, false);
     if (!is_delta(material)) {
         if (self.path.depth == 0) self.kappa = kappa_of(self.light, at, hit.distance);

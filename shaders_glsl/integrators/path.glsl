@@ -96,7 +96,7 @@ void gather_sampled(inout Path path, Meeting at, LightSample light, int source) 
     float height = dot(light.ray.direction, at.normals.facing);
     float along = dot(light.ray.direction, at.vertex.frame[2]);
     if (HAS_SHADING && height * along <= 0.0) light.pdf = 0.0;
-    float rho = path.rivals.rho * path_turn(path, at, light.ray.direction, links_at(path, at.vertex));
+    float rho = path.rivals.rho * path_turn(path, at, light.ray.direction, light.pdf, links_at(path, at.vertex));
     vec3 direct = path.scale * path.throughput * direct_light(at.vertex, light, rho, source == FROM_BACKGROUND);
     if (HAS_ATTENUATION) direct *= share_left(along < 0.0 ? at.behind : path.absorption, light.distance);
     if (HAS_MEDIA && direct != vec3(0.0)) {
@@ -231,7 +231,7 @@ bool scatter_path(inout Path path, Surface surface, Material whole, inout Sample
         record_end(END_BELOW_SURFACE);
         return false;
     }
-    path.rivals.rho *= path_turn(path, at, next.direction, links_at(path, at.vertex));
+    path.rivals.rho *= path_turn(path, at, next.direction, next.pdf, links_at(path, at.vertex));
     follow_chain(path.rivals.chain, surface.shape, at.vertex, next.crosses);
     path.throughput *= next.weight;
     if (path.throughput == vec3(0.0)) {

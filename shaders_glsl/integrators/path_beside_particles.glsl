@@ -7,11 +7,9 @@ bool links_at(Path path, Vertex vertex) {
     return HAS_PARTICLES && is_first && !is_delta(vertex.material);
 }
 
-// rho of the path beyond a surface. It is 0 where no particles are linked to the camera at the path's first vertex, or
-// where particles do not come so far: they do not scatter at this surface.
+// rho of the path beyond a surface. It is 0 where no particles are linked to the camera at the path's first vertex.
 float rho_beyond(Path path, Meeting at) {
     if (!HAS_PARTICLES) return path.rivals.rho;
-    if (!carries_particles(at.vertex.material)) return 0.0;
     if (!links_at(path, at.vertex)) return path.rivals.rho;
     float cosine = HAS_SHADING ? -dot(path.ray.direction, at.normals.facing) : at.vertex.wo.z;
     if (path.depth > 0) return rho_of_link(path.rivals.chain, at.ray.origin, cosine);
@@ -20,9 +18,11 @@ float rho_beyond(Path path, Meeting at) {
     return rho;
 }
 
-// P0 over PL of a path that scatters at a surface to wi. `is_linked`: whether particles are linked to the camera there.
-float path_turn(Path path, Meeting at, vec3 wi, bool is_linked) {
+// P0 over PL of a path that scatters at a surface to wi, with the density `pdf`. `is_linked`: whether particles are
+// linked to the camera there.
+float path_turn(Path path, Meeting at, vec3 wi, float pdf, bool is_linked) {
     if (!HAS_PARTICLES) return 1.0;
+    if (is_mirrored(at.vertex, pdf)) return is_linked ? 0.0 : mirrored_turn(at.normals, wi, -path.ray.direction);
     if (is_glossy(at.vertex.material)) return glossy_turn(at.vertex, at.normals, wi, is_linked);
     bool is_smooth = is_delta(at.vertex.material);
     return turn_around(at.vertex.frame[2], at.normals.facing, wi, -path.ray.direction, is_smooth);

@@ -28,7 +28,7 @@ from tests.support.builders import (
     sphere,
 )
 from tests.support.images import same_bits
-from tests.support.particle_rooms import BALL, CAMERA, LAMP, MATERIALS, ROOMS
+from tests.support.particle_rooms import BALL, CAMERA, LAMP, MATERIALS, POLISHED, ROOMS
 from tests.support.renders import assert_agree, rendered, rendering, same
 
 ON: dict[str, Any] = {"caustics": "on", "linked": 0.0}
@@ -41,6 +41,16 @@ def test_particles_change_the_noise_alone(context: Context, name: str) -> None:
     without = rendered(ROOMS[name], context, 4096, seed=1, **size)
     image = rendered(ROOMS[name], context, 1024, **size, **ON, particles=0.5)
     assert_agree(image, without, within=0.05)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", POLISHED)
+def test_light_that_polish_mirrors_is_counted_once(context: Context, name: str) -> None:
+    """Smooth coats and smooth metal, flat and on meshes with soft edges."""
+    size: dict[str, Any] = {"width": 16, "height": 16, "bounces": 4}
+    without = rendered(POLISHED[name], context, 8192, seed=1, **size)
+    image = rendered(POLISHED[name], context, 4096, **size, **ON, particles=1.0)
+    assert_agree(image, without, within=0.03)
 
 
 @pytest.mark.slow

@@ -50,6 +50,14 @@ MATERIALS: dict[str, dict[str, Any]] = {
     "matt glass": glass(roughness=0.3),
     "frosted": glass(roughness=0.4, attenuation_color=[0.6, 0.8, 0.9], attenuation_distance=0.5),
     "jelly": {"type": "principled", "color": [0.9, 0.8, 0.7], "transmission": 0.8, "roughness": 0},
+    "polished": {
+        "type": "principled",
+        "color": [0.95, 0.8, 0.5],
+        "metallic": 0.8,
+        "roughness": 0.0,
+        "clearcoat": 0.5,
+        "clearcoat_roughness": 0.3,
+    },
     "lamp": lamp(12.0),
     "spot": lamp(60.0, cone={"axis": [0.2, -1, 0], "inner": 20, "outer": 50}),
 }
@@ -104,7 +112,7 @@ ROOMS = {
     "the sun": outside(BALL, cylinder([-0.5, -1, -0.5], [-0.5, -0.4, -0.5], 0.2, "glass")),
     "the sun, a lamp and a drink": outside(quad([-1, 1, -2], [2, 0, 0], [0, 1, 0], "dim"), *DRINK),
     "glass in part": room(LAMP, {**BALL, "material": "jelly"}),
-    "what particles end at": scene_of(
+    "varnished walls": scene_of(
         [
             *box_of_quads("varnish"),
             *(LAMP, BALL, sphere([-0.5, -0.7, -0.2], 0.3, "matte")),
@@ -122,4 +130,20 @@ ROOMS = {
         sphere([0, 0, -0.3], 0.1, "lamp"), sphere([0, 0, -0.3], 0.3, "matt glass"), GOLD
     ),
     "the sun on glossy surfaces": outside(FROSTED, GOLD),
+}
+SHEET = np.array([[-0.9, -0.95, 0.6], [0.9, -0.95, 0.6], [0.9, -0.95, -0.9], [-0.9, -0.95, -0.9]])
+BENT = np.array([[-1, 1, 1], [1, 1, 1], [1, 1, -1], [-1, 1, -1]]) / np.sqrt(3)
+POLISHED = {
+    "dented sheet": room(
+        LAMP,
+        mesh((SHEET, np.array([[0, 1, 2], [0, 2, 3]])), "polished", smooth=True, normals=BENT),
+    ),
+    "hall": scene_of([*box_of_quads("polished"), LAMP, BALL], MATERIALS, CAMERA),
+    "shelf": room(
+        LAMP,
+        BALL,
+        {**GOLD, "material": "polished"},
+        mesh(icosphere(1), "varnish", translate=[0.1, -0.7, 0.2], scale=0.25, smooth=True),
+        mesh(icosphere(1), "polished", translate=[0.5, 0.2, -0.6], scale=0.3, smooth=True),
+    ),
 }
