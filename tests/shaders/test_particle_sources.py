@@ -100,7 +100,7 @@ KINDS = [
     (True, {**PRINCIPLED, "transmission": 0.1, "roughness": 0.9}),
     (True, {**PRINCIPLED, "metallic": 1.0, "roughness": 0.4}),
     (False, {**PRINCIPLED, "metallic": 1.0, "roughness": 0.41}),
-    (False, {**PRINCIPLED, "metallic": 1.0, "roughness": 0.0}),  # particles end there
+    (True, {**PRINCIPLED, "metallic": 1.0, "roughness": 0.0}),
     (False, {**PRINCIPLED, "metallic": 0.5, "roughness": 0.1}),
     (False, {"type": "lambertian", "color": [1, 1, 1]}),
 ]
