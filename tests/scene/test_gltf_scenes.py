@@ -182,7 +182,7 @@ def test_closed_glass_has_a_volume_and_open_glass_is_thin(tmp_path: Path) -> Non
     assert not closed.thin
     assert (closed.attenuation_color, closed.attenuation_distance) == ((1, 0, 0), 2)
     opened = loaded(tmp_path, **glass)
-    assert principled(opened).thin
+    assert (principled(opened).thin, principled(opened).roughness) == (True, 1)
     told = " ".join(cautions(opened, settings_for(opened.render)))
     assert "the volume of glass that is not closed" in told
 
