@@ -120,11 +120,11 @@ RECIPES: dict[str, Recipe] = {
     ),
     "painted.jpg": One("painted", "", {"width": 600, "height": 400}),
     "pair.webp": _bench("window_films", "pair", "-o", "{folder}"),
-    "paths.webp": _bench("window_films", "paths", "-o", "{folder}"),
     "panes.jpg": One(
         *("explanation/glass.md", "# panes.toml"),
         {"width": 720, "height": 300, "samples": 384},
     ),
+    "paths.webp": _bench("window_films", "paths", "-o", "{folder}"),
     "phong.png": _glrt(*_PHONG),
     "probe-balls.jpg": probe_balls,
     "redraw.webp": _bench("redraw", "film", "{file}"),

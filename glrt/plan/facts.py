@@ -1,6 +1,6 @@
 """Facts that follow from a scene alone: counts, lamps, glasses, and the BVHs of its shapes."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Collection, Iterable
 from dataclasses import dataclass
 
 from glrt.core.memo import computed_once
@@ -21,7 +21,7 @@ from glrt.scene.values import Radiance
 
 TREE_FROM = 33  # bounded shapes: more than are baked; a BVH pays from here (docs/results/speed.md)
 SPHERES_FROM = 33  # spheres: from here on a BVH of their own is faster
-REST_FROM = 16  # other shapes, where spheres or meshes have a BVH: from here on they get one too
+REST_FROM = 16  # other shapes, where spheres have a BVH: from here on they get one too
 MOST_NEAR = 32  # lamps weighed at each point; more are grouped into this many clusters
 MOST_LAMPS = 65_535  # sampled lamps: a triangle stores the number of its light in 16 bits
 ENDLESS = ("plane",)  # kinds of shapes without bounds
@@ -191,8 +191,17 @@ class SceneFacts:
         kinds = [kind for kind in KINDS if kind not in (*ENDLESS, MESH) and self.shapes[kind]]
         if self.has_sphere_tree:
             kinds = [kind for kind in kinds if kind != "sphere"]
-        least = REST_FROM if self.has_sphere_tree or self.shapes[MESH] else TREE_FROM
-        return tuple(kinds) if self.count_of(kinds) >= least else ()
+        return tuple(kinds) if self.count_of(kinds) >= self.least_for_tree(kinds) else ()
+
+    def least_for_tree(self, kinds: Collection[str]) -> int:
+        """Return from how many shapes of these kinds on a BVH over them pays.
+
+        Meshes have a BVH anyway. Each kind in it makes all its rounds slower, and keeps rays from
+        afar from starting near the meshes.
+        """
+        if self.shapes[MESH]:
+            return REST_FROM * (1 + len(kinds))
+        return REST_FROM if self.has_sphere_tree else TREE_FROM
 
     @property
     def has_trees(self) -> bool:

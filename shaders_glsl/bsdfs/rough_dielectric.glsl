@@ -6,6 +6,8 @@
 // Values here are of energy: radiance that crosses also scales by eta^2.
 // Rough panes have facets of their own (pane.glsl), and get the light back that these lose.
 
+const float SMOOTHEST = 1e-8;  // facets that spread refracted light by a smaller angle are smooth
+
 bool is_rough_glass(Material material) {
     if (HAS_ROUGH_PANE && material.kind == PANE) return material.alpha > 0.0;
     return HAS_ROUGH_GLASS && material.kind == DIELECTRIC && material.alpha > 0.0;

@@ -55,6 +55,7 @@ Meeting meet(Path path, Surface surface, Material material, bool by_shading) {
         if (is_rough_glass(material)) {
             uint around = side > 0.0 ? path.counts : beyond;
             vertex.material.details = facets_against(material.details, around);
+            if (material.alpha * abs(vertex.eta - 1.0) < SMOOTHEST) vertex.material.alpha = 0.0;
         }
     }
     vec3 behind = absorption_behind(path, material, side > 0.0);

@@ -103,7 +103,7 @@ bool extend_particle(inout Particle self, bool by_spheres, inout Sampler rng) {
     }
     Material material = part_met(whole, rng);
     Meeting at = meet(self.path, surface, material, false);
-    if (!is_delta(material)) {
+    if (!is_delta(at.vertex.material)) {
         if (self.path.depth == 0) self.kappa = kappa_of(self.light, at, hit.distance);
         link_to_camera(self, at, by_spheres, rng);
     }

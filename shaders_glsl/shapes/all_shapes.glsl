@@ -9,6 +9,7 @@
 #include "shapes/disk.glsl"
 #include "shapes/box.glsl"
 #include "shapes/cylinder.glsl"
+#include "shapes/far_rays.glsl"
 #include "shapes/instance.glsl"
 #include "shapes/mesh.glsl"
 #include "shapes/surface.glsl"

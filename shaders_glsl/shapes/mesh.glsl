@@ -25,11 +25,11 @@ struct ShearedRay {
     vec3 x;  // dot product with a vector: its x after the shear
     vec3 y;
     vec3 z;
+    float skipped;  // distance to its start, by which it is shorter than the ray
 };
 
 // A triangle does not know the numbers of its neighbours. So a ray starts clear of its plane, on the ray's side.
-vec3 start_among_triangles(Ray ray) {
-    vec3 place = ray.origin - frame.tree_center;
+vec3 start_among_triangles(Ray ray, vec3 place) {
     if (!is_triangle(ray.origin_shape) || instance_of(ray.origin_shape) > 0) return place;
     Triangle left = triangle_of(ray.origin_shape);
     vec3 away = abs(frame.tree_center);
@@ -39,7 +39,7 @@ vec3 start_among_triangles(Ray ray) {
     return place;
 }
 
-ShearedRay sheared_along(vec3 origin, vec3 direction) {
+ShearedRay sheared_along(vec3 origin, vec3 direction, float skipped) {
     vec3 size = abs(direction);
     bool along_x = size.x >= size.y && size.x >= size.z;
     bool along_y = !along_x && size.y >= size.z;
@@ -49,13 +49,15 @@ ShearedRay sheared_along(vec3 origin, vec3 direction) {
     float scale = 1.0 / dot(z, direction);
     vec3 shear_x = x - dot(x, direction) * scale * z;
     vec3 shear_y = y - dot(y, direction) * scale * z;
-    return ShearedRay(origin, shear_x, shear_y, scale * z);
+    return ShearedRay(origin, shear_x, shear_y, scale * z, skipped);
 }
 
-ShearedRay sheared(Ray ray) {
-    if (!HAS_MESH) return ShearedRay(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
-    return sheared_along(start_among_triangles(ray), ray.direction);
+ShearedRay sheared_from(Start start, Ray ray) {
+    if (!HAS_MESH) return ShearedRay(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 0.0);
+    return sheared_along(start_among_triangles(ray, start.place), ray.direction, start.skipped);
 }
+
+ShearedRay sheared(Ray ray) { return sheared_from(start_of(ray), ray); }
 
 // How a ray leaves the triangle of an instance.
 struct Left {
@@ -81,15 +83,16 @@ Left left_by(Ray ray) {
 
 ShearedRay sheared_in(Ray ray, int instance) {
     Inward inward = inward_of(instance_at(instance - 1));
-    vec3 start = turned_in(inward, ray.origin - frame.tree_center - inward.origin);
+    Start near = start_of(ray);
+    vec3 start = turned_in(inward, near.place - inward.origin);
     Left left = left_by(ray);
     if (left.instance == instance) start += left.shift;
-    return sheared_along(start, turned_in(inward, ray.direction));
+    return sheared_along(start, turned_in(inward, ray.direction), near.skipped);
 }
 
 vec3 sheared_point(ShearedRay ray, vec3 corner) {
     vec3 offset = corner - ray.origin;
-    vec3 point = vec3(dot(ray.x, offset), dot(ray.y, offset), dot(ray.z, offset));
+    vec3 point = vec3(dot(ray.x, offset), dot(ray.y, offset), dot(ray.z, offset) + ray.skipped);
     return point;
 }
 

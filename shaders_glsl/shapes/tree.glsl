@@ -97,6 +97,14 @@ struct Course {
     int instance;  // the instance of that tree; 0: the tree of the scene
 };
 
+// The largest distance from the start of the course at which a shape may replace a hit. Distances of hits are rounded
+// relative to the skipped part.
+float limit_of(Ray ray, Course course, Hit hit) {
+    float skipped = course.turned.skipped;
+    float limit = (farthest(ray, hit) - skipped) + SLACK * skipped;
+    return limit;
+}
+
 // Visits a slot on the way to the nearest shape nearer than hit.distance, or at the same distance with a lower
 // number. Children are visited in the order in which the ray enters them. `group` contains the number of children
 // left, from bit 24 on, and the numbers of these children, 3 bits each, the nearest first.
@@ -104,7 +112,7 @@ void visit_nearest(Ray ray, Course course, Slot slot, int ignored, inout Walk wa
     bool is_leaf = (slot.d.w & LEAF) != 0u;
     if (is_leaf) hit = meet_leaf(ray, course.turned, course.instance, slot, hit, ignored);
     Children children = children_of(slot, course.grid);
-    float limit = farthest(ray, hit);
+    float limit = limit_of(ray, course, hit);
     uint k0 = meets_child(children, 0u, children.near_low, children.far_low, limit);
     uint k1 = meets_child(children, 1u, children.near_low, children.far_low, limit);
     uint k2 = meets_child(children, 2u, children.near_low, children.far_low, limit);
@@ -151,7 +159,7 @@ void visit_any(Ray ray, Course course, Slot slot, int ignored, inout Walk walk, 
     bool is_leaf = (slot.d.w & LEAF) != 0u;
     if (is_leaf) hit = meet_leaf(ray, course.turned, course.instance, slot, hit, ignored);
     Children children = children_of(slot, course.grid);
-    float limit = farthest(ray, hit);
+    float limit = limit_of(ray, course, hit);
     uint met = uint(meets_child(children, 0u, children.near_low, children.far_low, limit) != NO_CHILD)
              | uint(meets_child(children, 1u, children.near_low, children.far_low, limit) != NO_CHILD) << 1u
              | uint(meets_child(children, 2u, children.near_low, children.far_low, limit) != NO_CHILD) << 2u
@@ -190,11 +198,9 @@ struct Among {
     int instance;
 };
 
-Among outside_instances(Ray ray) {
-    vec3 size = max(abs(ray.origin), abs(frame.tree_center));
-    float largest = larger(larger(size.x, size.y), size.z);
-    vec3 start = ray.origin - frame.tree_center;
-    return Among(start, start_among_triangles(ray), ray.direction, largest, frame.tree_cell, 0);
+Among outside_instances(Ray ray, Start start) {
+    vec3 clear = start_among_triangles(ray, start.place);
+    return Among(start.place, clear, ray.direction, start.largest, frame.tree_cell, 0);
 }
 
 // The ray in the next tree: where the walk enters an instance, stays in its tree, or leaves it. All cases are
@@ -217,16 +223,17 @@ Among next_among(Among now, Among outside, Walk walk, Slot slot, Left left) {
         goes_in ? instance : gets_out ? 0 : now.instance);
 }
 
-Course course_of(Among among) {
+Course course_of(Among among, float skipped) {
     float cells = 1.0 / among.cell;
     float largest = among.largest * cells;
     TreeRay grid = ray_on_grid(among.start * cells, largest, INSTANCE_SLACK, among.direction, among.cell);
-    return Course(grid, sheared_along(among.clear, among.direction), among.instance);
+    return Course(grid, sheared_along(among.clear, among.direction, skipped), among.instance);
 }
 
 Hit find_by_tree(Ray ray, Hit hit, int ignored, bool any) {
-    Course course = Course(tree_ray(ray), sheared(ray), 0);
-    Among outside = outside_instances(ray);
+    Start start = start_of(ray);
+    Course course = Course(tree_ray(start, ray.direction), sheared_from(start, ray), 0);
+    Among outside = outside_instances(ray, start);
     Among among = outside;
     Left left = left_by(ray);
     Walk walk = walk_from_root();
@@ -236,7 +243,7 @@ Hit find_by_tree(Ray ray, Hit hit, int ignored, bool any) {
         else visit_nearest(ray, course, slot, ignored, walk, hit);
         if (HAS_INSTANCE) {
             among = next_among(among, outside, walk, slot, left);
-            course = course_of(among);
+            course = course_of(among, start.skipped);
         }
     }
     if (walk.goes_on) loop_was_cut = true;

@@ -7,7 +7,6 @@
 // the edge, whose distance is rounding, and make them slow.
 const float SLACK = 9.5367431640625e-7;
 const float INSTANCE_SLACK = 7.62939453125e-6;  // 128 times: rays of instances are placed in their coordinates first
-const float HALF_GRID = 8388608.0;  // cells
 const float STEEPEST = 1.2379400392853803e27;  // 2^90: nothing in the tests of boxes overflows
 const uint NO_CHILD = 0xFFFFFFFFu;
 
@@ -30,12 +29,10 @@ TreeRay ray_on_grid(vec3 start, float largest, float error, vec3 direction, floa
     return TreeRay(place + shift, place - shift, inverse, is_down);
 }
 
-TreeRay tree_ray(Ray ray) {
-    vec3 center = frame.tree_center;
-    vec3 size = max(abs(ray.origin), abs(center));
+TreeRay tree_ray(Start start, vec3 direction) {
     float cells = 1.0 / frame.tree_cell;
-    float largest = larger(larger(size.x, size.y), size.z) * cells;
-    return ray_on_grid((ray.origin - center) * cells, largest, SLACK, ray.direction, frame.tree_cell);
+    float largest = start.largest * cells;
+    return ray_on_grid(start.place * cells, largest, SLACK, direction, frame.tree_cell);
 }
 
 // The children of a node as a ray meets them: for all 8, one byte each along each axis.

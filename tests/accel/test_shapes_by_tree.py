@@ -13,6 +13,7 @@ from glrt.scene.shapes.disk import Disk
 from glrt.settings import Cost
 from tests.conftest import CallGlsl
 from tests.support.builders import box, cylinder, disk, lamp, plane, quad, scene_of, sphere
+from tests.support.meshes import mesh
 from tests.support.mixed_scene import MATERIALS
 from tests.support.renders import rendered, rendering, same
 
@@ -239,3 +240,15 @@ def test_a_camera_that_moves_builds_no_tree(
                 assert renderer.update(moved) is Cost.RESTART
             image = renderer.render(3).image()
             assert same(image, rendered(moved, context, 3, **SETTINGS))
+
+
+@pytest.mark.parametrize(("kinds", "least"), [(1, 32), (2, 48), (3, 64)])
+def test_shapes_join_the_tree_of_meshes_where_that_pays(kinds: int, least: int) -> None:
+    """Each kind of shapes makes the tree of the triangles slower."""
+    some = [box([0, 0, 0], [1, 1, 1], "white"), sphere([0, 0, 0], 1, "white")]
+    some += [cylinder([0, 0, 0], [1, 0, 0], 1, "white")]
+    things = [some[k % kinds] for k in range(least)]
+    triangle = mesh((np.eye(3), np.array([[0, 1, 2]])), "white", smooth=False)
+    for count in (least - 1, least):
+        facts = SceneFacts(scene_of([triangle, *things[:count]], MATERIALS))
+        assert len(facts.tree_kinds) == (kinds if count == least else 0)

@@ -17,7 +17,7 @@ from glrt.core.resources import folder
 from glrt.gpu import glsl
 from glrt.gpu.glsl import Source, read
 from glrt.gpu.program import Kernel
-from glrt.plan.facts import MOST_NEAR, SPHERES_FROM, TREE_FROM, SceneFacts
+from glrt.plan.facts import MOST_NEAR, REST_FROM, SPHERES_FROM, TREE_FROM, SceneFacts
 from glrt.plan.features import Needs, needs_of
 from glrt.scene import instancing
 from glrt.scene.density import Density
@@ -156,7 +156,8 @@ def needs_with(flags: set[str]) -> Needs:
     objects += [body("matte")] if "HAS_SPHERE" in flags else []
     ball, flat = sphere([9, 9, 9], 1, "matte"), _flat_shape(flags)
     objects += [ball] * (SPHERES_FROM if "HAS_SPHERE_TREE" in flags else 0)
-    objects += [flat] * (TREE_FROM if "HAS_TREE" in flags else 0)
+    most = max(TREE_FROM, 6 * REST_FROM)  # enough for a tree with five kinds among triangles
+    objects += [flat] * (most if "HAS_TREE" in flags else 0)
     objects += [plane([0, -1, 0], [0, 1, 0], "matte")] if "HAS_PLANE" in flags else []
     objects += [quad([0, 0, 0], [1, 0, 0], [0, 1, 0], "matte")] if "HAS_QUAD" in flags else []
     objects += [disk([0, 0, 0], [1, 0, 0], 1, "matte")] if "HAS_DISK" in flags else []

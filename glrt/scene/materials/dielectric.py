@@ -98,10 +98,11 @@ class Dielectric(Surface):
         """The alpha of GGX; 0 if it is smooth, or if float32 cannot distinguish it from smooth.
 
         Refraction spreads light over an angle of about alpha times (ior - 1), and a pane over
-        alpha.
+        alpha. For glass with a priority the kernel decides, as it knows what lies around the glass.
         """
         alpha = self.roughness**2
-        spread = 1.0 if self.thin else min(1.0, abs(self.ior - 1))
+        is_known = not self.thin and self.priority is None
+        spread = min(1.0, abs(self.ior - 1)) if is_known else 1.0
         return alpha if alpha * spread >= SMOOTHEST else 0.0
 
     @property
