@@ -60,6 +60,7 @@ def write_small(file: Path, drawn: Path) -> None:
 
 
 def _run(parsed: argparse.Namespace) -> None:
+    parsed.folder.mkdir(parents=True, exist_ok=True)
     context, findings = open_context("auto", "compute"), []
     lab = Lab(context, 0.125 if parsed.quick else 1.0, None)
     for name, cases in cases_of_sheets():
