@@ -58,6 +58,7 @@ def distances(origins: Array, directions: Array, triangles: tuple[Array, Array, 
     return found
 
 
+@pytest.mark.slow_cases("*repeated")
 @pytest.mark.parametrize("is_repeated", [False, True], ids=["own", "repeated"])
 @pytest.mark.parametrize("distance", [3e2, 3e3, 3e4])
 def test_rays_from_afar_meet_what_they_meet_in_float64(

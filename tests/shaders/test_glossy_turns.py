@@ -29,7 +29,7 @@ KINDS: dict[str, dict[str, Any]] = {
         "clearcoat_roughness": 0.3,
     },
 }
-BRUSHED = "brushed"  # of a kernel of its own, so its cases are slow
+BRUSHED = "brushed"  # of a kernel of its own, as plastic is, so its cases are slow
 KINDS[BRUSHED] = {
     **KINDS["coated"],
     "anisotropy": 0.7,
@@ -38,7 +38,8 @@ KINDS[BRUSHED] = {
     "diffuse_transmission": 0.4,
 }
 kinds = pytest.mark.parametrize(
-    "kind", [pytest.param(k, marks=pytest.mark.slow) if k == BRUSHED else k for k in KINDS]
+    "kind",
+    [pytest.param(k, marks=pytest.mark.slow) if k in (BRUSHED, "plastic") else k for k in KINDS],
 )
 COUNT = 20_000
 SETUP = """

@@ -48,6 +48,7 @@ def test_facets_are_panes_and_mirror_what_they_let_through(
     assert_allclose(found, exact, rtol=2e-3, atol=3e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("roughness", "ior"), PANES)
 def test_light_goes_both_ways_through_a_rough_pane(
     call_glsl: CallGlsl, roughness: float, ior: float
@@ -81,6 +82,7 @@ def test_a_rough_pane_neither_loses_nor_gains_light(
         assert weight.astype(np.float64).mean() == pytest.approx(1, abs=0.005)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("roughness", "ior"), PANES)
 def test_the_weight_of_a_sample_of_a_pane_is_its_value_over_its_density(
     call_glsl: CallGlsl, roughness: float, ior: float
@@ -101,6 +103,7 @@ def test_the_weight_of_a_sample_of_a_pane_is_its_value_over_its_density(
     assert_allclose(weight[near] * again[near], value[near], rtol=2e-2)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("grid", GRIDS, ids=str)
 @pytest.mark.parametrize(("roughness", "ior", "cosine"), CASES)
 def test_samples_of_a_pane_follow_their_density(

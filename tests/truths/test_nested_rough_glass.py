@@ -28,6 +28,7 @@ def test_rough_glass_in_water_is_one_of_their_ratio(context: Context, roughness:
     assert close.mean() > 0.99  # the rest: rays that rounding sends another way
 
 
+@pytest.mark.slow
 def test_a_rough_bubble_is_one_of_the_inverse_index(context: Context) -> None:
     """Air of a higher priority in glass, and without priorities an `ior` of 1 / 1.5."""
     camera = {"position": [0, 0.5, 5], "look_at": [0, 0, 0], "fov": 40}
@@ -49,6 +50,7 @@ def test_a_rough_bubble_is_one_of_the_inverse_index(context: Context) -> None:
     assert close.mean() > 0.98  # the rest: rays that rounding sends another way
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("around", ["water", "air"])
 def test_rough_glass_in_its_own_index_is_not_there(context: Context, around: str) -> None:
     """Each pixel shows the lamp around it, without noise: no light is reflected or lost."""
@@ -65,6 +67,7 @@ def test_rough_glass_in_its_own_index_is_not_there(context: Context, around: str
     assert_allclose(found, np.ones_like(found), rtol=1e-5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", METHODS)
 def test_rough_glasses_that_overlap_vanish_in_even_light(context: Context, method: str) -> None:
     """The furnace: ice in water in a bowl of glass, all of them rough."""

@@ -29,6 +29,7 @@ def test_a_ball_under_an_even_sky_cannot_be_seen(
     assert_mean(whole(image), 1, within=0.02, floor=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize(("roughness", "ior"), [(0.2, 1.5), (1.0, 2.4)])
 def test_rough_panes_under_an_even_sky_cannot_be_seen(
@@ -43,6 +44,7 @@ def test_rough_panes_under_an_even_sky_cannot_be_seen(
     assert_mean(whole(image), 1, within=0.01, floor=1e-3)
 
 
+@pytest.mark.slow_cases("thin pane")
 @pytest.mark.parametrize("things", ["slab", "thin pane", "ball around a lamp", "box beside a lamp"])
 def test_methods_agree_on_light_through_rough_glass(context: Context, things: str) -> None:
     frosted = glass(1.5, roughness=0.5)
@@ -89,6 +91,7 @@ def test_nearly_smooth_glass_looks_smooth(context: Context) -> None:
     assert_allclose(narrow.mean(axis=(0, 1)), smooth.mean(axis=(0, 1)), rtol=4e-3)
 
 
+@pytest.mark.slow
 def test_a_nearly_smooth_pane_shows_what_a_smooth_one_shows(context: Context) -> None:
     sky = {"bottom": [0.1] * 3, "top": [1.0] * 3}
     things = [quad([-1, -1, 0], [2, 0, 0], [0, 2, 0], "pane"), plane([0, -1, 0], [0, 1, 0], "f")]

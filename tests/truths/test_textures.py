@@ -71,7 +71,7 @@ def room(material: dict[str, Any], mesh_too: bool = True) -> Scene:
     return scene_of([*things, *lights], materials, EYE, background={"color": [0.2] * 3})
 
 
-@pytest.mark.slow_cases("matte-nee", "alpha-naive", "alpha-nee")
+@pytest.mark.slow_cases("matte-naive", "matte-nee", "alpha-naive", "alpha-nee")
 @pytest.mark.slow_cases("principled-naive", "what is not cut-naive")
 @pytest.mark.slow_cases(
     "metal-naive",
