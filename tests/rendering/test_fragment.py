@@ -129,7 +129,7 @@ def test_accessor_reads_each_field_where_the_layout_has_it() -> None:
     assert "vec2(1.5, 0.5)" in text, "the middle of a texel: beside it, chance decides"
 
 
-@pytest.mark.slow_cases("*-Light")
+@pytest.mark.slow_cases("*-Light", "1-*", "512-*")
 @pytest.mark.parametrize("struct", ["Node", "Light", "Quad"])
 @pytest.mark.parametrize("count", [1, ROWS, ROWS + 1, 5 * ROWS + 3, 1 + 2**16])
 def test_each_row_of_a_texture_is_read_where_it_lies(
