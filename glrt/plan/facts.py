@@ -21,7 +21,7 @@ from glrt.scene.values import Radiance
 
 TREE_FROM = 33  # bounded shapes: more than are baked; a BVH pays from here (docs/results/speed.md)
 SPHERES_FROM = 33  # spheres: from here on a BVH of their own is faster
-REST_FROM = 16  # other shapes, where spheres have a BVH: from here on they get one too
+REST_FROM = 16  # other shapes, where spheres have a BVH; a multiple of it where meshes have one
 MOST_NEAR = 32  # lamps weighed at each point; more are grouped into this many clusters
 MOST_LAMPS = 65_535  # sampled lamps: a triangle stores the number of its light in 16 bits
 ENDLESS = ("plane",)  # kinds of shapes without bounds

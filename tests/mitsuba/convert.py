@@ -70,7 +70,7 @@ class _Exact(Surfaces):
         self._is_native = is_native
 
     def bsdf(self, name: str, material: Material, turn: Turn) -> Words:
-        if isinstance(material, Dielectric) and material.alpha:
+        if isinstance(material, Dielectric) and _has_plug_in(material):
             loss = facet_loss(material.alpha, material.ior)
             return rough_glass.words(material.alpha, material.ior, loss)
         if isinstance(material, Metal) and material.alpha:
@@ -78,6 +78,11 @@ class _Exact(Surfaces):
         if isinstance(material, Principled) and _is_shared_metal(material):
             return both_sides_of(material, principled(material, turn))
         return super().bsdf(name, material, turn)
+
+
+def _has_plug_in(material: Dielectric) -> bool:
+    """Whether it is rough glass as the plug-in knows it: no pane, and against air alone."""
+    return material.alpha > 0 and not material.thin and material.priority is None
 
 
 def _is_shared_metal(material: Principled) -> bool:

@@ -29,6 +29,34 @@ def rough(roughness: float, ior: float, **more: Any) -> dict[str, Any]:
     return {"scene": scene_of([ball], {"glass": glass(ior, roughness=roughness, **more)})}
 
 
+BOTH_WAYS = """
+    mat3 up = frame_around(vec3(0.0, 0.0, 1.0));
+    float side = wo.z > 0.0 ? 1.0 : -1.0;
+    Vertex there = vertex_of(up, side * wo, material_at(0), wo.z > 0.0);
+    float back = wi.z > 0.0 ? 1.0 : -1.0;
+    Vertex again = vertex_of(up, back * wi, material_at(0), wi.z > 0.0);
+    float a = eval_material(there, side * wi).x * there.wo.z;
+    float b = eval_material(again, back * wo).x * again.wo.z;"""  # f cos wi cos wo, exchanged in b
+
+
+def assert_weights(call_glsl: CallGlsl, outside: Array, **scene: Any) -> None:
+    """The weight of a sample is its value over its density; `outside`: 1 or 0 for each of some."""
+    wo = np.abs(directions(50_000, 6))
+    u = np.random.default_rng(5).uniform(size=(len(wo), 3))
+    setup = SETUP + "Scattering next = sample_rough_dielectric(vertex, u.x, u.yz);"
+    setup += "vec3 wi = next.direction;"
+    found = call_glsl(
+        "vec4(next.weight.x * next.scale, next.pdf, pdf_material(vertex, wi), "
+        "eval_material(vertex, wi).x)",
+        "vec4", setup=setup, wo=wo, u=u, outside=outside, **scene,
+    ).astype(np.float64)  # fmt: skip
+    weight, pdf, again, value = found[found[:, 1] > 0].T
+    assert len(weight) > 30_000
+    near = np.isclose(pdf, again, rtol=2e-2)
+    assert near.mean() > 0.999  # the rest: normals that rounding of wi moves
+    assert_allclose(weight[near] * again[near], value[near], rtol=2e-2)
+
+
 def directions(count: int, seed: int) -> Array:
     """Evenly over the sphere, (count, 3), none that grazes."""
     random = np.random.default_rng(seed)
@@ -75,15 +103,7 @@ def test_light_goes_both_ways_except_for_eta_squared(
 ) -> None:
     """f(wo, wi) cos wi cos wo: alike when both change places, over n^2 of the side of wi."""
     wo, wi = directions(20_000, 3), directions(20_000, 4)
-    setup = """
-        mat3 up = frame_around(vec3(0.0, 0.0, 1.0));
-        float side = wo.z > 0.0 ? 1.0 : -1.0;
-        Vertex there = vertex_of(up, side * wo, material_at(0), wo.z > 0.0);
-        float back = wi.z > 0.0 ? 1.0 : -1.0;
-        Vertex again = vertex_of(up, back * wi, material_at(0), wi.z > 0.0);
-        float a = eval_material(there, side * wi).x * there.wo.z;
-        float b = eval_material(again, back * wo).x * again.wo.z;"""
-    a, b = call_glsl("vec2(a, b)", "vec2", setup=setup, wo=wo, wi=wi, **rough(roughness, ior)).T
+    a, b = call_glsl("vec2(a, b)", "vec2", setup=BOTH_WAYS, wo=wo, wi=wi, **rough(roughness, ior)).T
     n2 = [np.where(w[:, 2] > 0, 1.0, ior**2) for w in (wo, wi)]
     assert np.count_nonzero(a) > 15_000
     assert_allclose(a / n2[0], b / n2[1], rtol=2e-3, atol=1e-7)
@@ -108,26 +128,8 @@ def test_no_light_is_lost_or_gained(
 def test_the_weight_of_a_sample_is_its_value_over_its_density(
     call_glsl: CallGlsl, roughness: float, ior: float
 ) -> None:
-    random = np.random.default_rng(5)
-    wo = np.abs(directions(50_000, 6))
-    u = random.uniform(size=(len(wo), 3))
-    outside = random.integers(0, 2, len(wo))
-    setup = (
-        SETUP
-        + """
-        Scattering next = sample_rough_dielectric(vertex, u.x, u.yz);
-        vec3 wi = next.direction;"""
-    )
-    found = call_glsl(
-        "vec4(next.weight.x * next.scale, next.pdf, pdf_material(vertex, wi), "
-        "eval_material(vertex, wi).x)",
-        "vec4", setup=setup, wo=wo, u=u, outside=outside, **rough(roughness, ior),
-    ).astype(np.float64)  # fmt: skip
-    weight, pdf, again, value = found[found[:, 1] > 0].T
-    assert len(weight) > 30_000
-    near = np.isclose(pdf, again, rtol=2e-2)
-    assert near.mean() > 0.999  # the rest: normals that rounding of wi moves
-    assert_allclose(weight[near] * again[near], value[near], rtol=2e-2)
+    outside = np.random.default_rng(7).integers(0, 2, 50_000)
+    assert_weights(call_glsl, outside, **rough(roughness, ior))
 
 
 @pytest.mark.parametrize("grid", GRIDS, ids=str)

@@ -11,7 +11,13 @@ from glrt.settings import Settings
 from tests.conftest import CallGlsl
 from tests.shaders.test_dielectric import fresnel64
 from tests.shaders.test_material import ggx_d64, ggx_lambda
-from tests.shaders.test_rough_dielectric import SETUP, directions, rough
+from tests.shaders.test_rough_dielectric import (
+    BOTH_WAYS,
+    SETUP,
+    assert_weights,
+    directions,
+    rough,
+)
 from tests.shaders.test_sampling import GRIDS
 from tests.support.chi_square import assert_density
 from tests.support.numerics import float32, lattice, wo_at
@@ -55,16 +61,8 @@ def test_light_goes_both_ways_through_a_rough_pane(
 ) -> None:
     """f(wo, wi) cos wi cos wo is alike when both change places, whichever sides they are on."""
     wo, wi = directions(20_000, 3), directions(20_000, 4)
-    setup = """
-        mat3 up = frame_around(vec3(0.0, 0.0, 1.0));
-        float side = wo.z > 0.0 ? 1.0 : -1.0;
-        Vertex there = vertex_of(up, side * wo, material_at(0), wo.z > 0.0);
-        float back = wi.z > 0.0 ? 1.0 : -1.0;
-        Vertex again = vertex_of(up, back * wi, material_at(0), wi.z > 0.0);
-        float a = eval_material(there, side * wi).x * there.wo.z;
-        float b = eval_material(again, back * wo).x * again.wo.z;"""
     given = rough(roughness, ior, thin=True)
-    a, b = call_glsl("vec2(a, b)", "vec2", setup=setup, wo=wo, wi=wi, **given).T
+    a, b = call_glsl("vec2(a, b)", "vec2", setup=BOTH_WAYS, wo=wo, wi=wi, **given).T
     assert np.count_nonzero(a) > 15_000
     assert_allclose(a, b, rtol=2e-3, atol=1e-7)
 
@@ -87,20 +85,7 @@ def test_a_rough_pane_neither_loses_nor_gains_light(
 def test_the_weight_of_a_sample_of_a_pane_is_its_value_over_its_density(
     call_glsl: CallGlsl, roughness: float, ior: float
 ) -> None:
-    wo = np.abs(directions(50_000, 6))
-    u = np.random.default_rng(5).uniform(size=(len(wo), 3))
-    setup = SETUP + "Scattering next = sample_rough_dielectric(vertex, u.x, u.yz);"
-    setup += "vec3 wi = next.direction;"
-    found = call_glsl(
-        "vec4(next.weight.x * next.scale, next.pdf, pdf_material(vertex, wi), "
-        "eval_material(vertex, wi).x)",
-        "vec4", setup=setup, wo=wo, u=u, **pane(roughness, ior),
-    ).astype(np.float64)  # fmt: skip
-    weight, pdf, again, value = found[found[:, 1] > 0].T
-    assert len(weight) > 30_000
-    near = np.isclose(pdf, again, rtol=2e-2)
-    assert near.mean() > 0.999  # the rest: normals that rounding of wi moves
-    assert_allclose(weight[near] * again[near], value[near], rtol=2e-2)
+    assert_weights(call_glsl, **pane(roughness, ior))
 
 
 @pytest.mark.slow

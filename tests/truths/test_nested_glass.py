@@ -214,14 +214,16 @@ def test_the_higher_priority_is_there(context: Context) -> None:
         assert_mean(whole(image), truth, within=0.02, floor=1e-5)
 
 
-def test_a_bubble_in_glass_is_one_of_the_inverse_index(context: Context) -> None:
+@pytest.mark.slow_cases("0.5")
+@pytest.mark.parametrize("roughness", [0.0, 0.5])
+def test_a_bubble_in_glass_is_one_of_the_inverse_index(context: Context, roughness: float) -> None:
     """Air of a higher priority in glass, and without priorities an `ior` of 1 / 1.5."""
     camera = {"position": [0, 0.5, 5], "look_at": [0, 0, 0], "fov": 40}
     floor = plane([0, -1.6, 0], [0, 1, 0], "floor")
     things = [floor, sphere([0, 0, 0], 1.5, "glass"), sphere([0.3, 0.2, 0], 0.7, "air")]
     ways = (
-        {"glass": glass(1.5, priority=0), "air": glass(1.0, priority=1)},
-        {"glass": glass(1.5), "air": glass(1 / 1.5)},
+        {"glass": glass(1.5, priority=0), "air": glass(1.0, priority=1, roughness=roughness)},
+        {"glass": glass(1.5), "air": glass(1 / 1.5, roughness=roughness)},
     )
     sky = {"bottom": [0.1] * 3, "top": [1.0] * 3}
     first, second = (

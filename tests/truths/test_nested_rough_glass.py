@@ -6,7 +6,7 @@ from numpy.testing import assert_allclose
 
 from glrt.core.errors import SceneError
 from glrt.gpu.context import Context
-from tests.support.builders import MATTE, box, glass, lamp, plane, scene_of, sphere
+from tests.support.builders import MATTE, box, glass, lamp, scene_of, sphere
 from tests.support.renders import METHODS, assert_mean, rendered, whole
 
 
@@ -26,28 +26,6 @@ def test_rough_glass_in_water_is_one_of_their_ratio(context: Context, roughness:
     first, second = (rendered(scene, context, 64, bounces=6) for scene in (flooded, dry))
     close = np.isclose(first.radiance, second.radiance, rtol=1e-3).all(axis=-1)
     assert close.mean() > 0.99  # the rest: rays that rounding sends another way
-
-
-@pytest.mark.slow
-def test_a_rough_bubble_is_one_of_the_inverse_index(context: Context) -> None:
-    """Air of a higher priority in glass, and without priorities an `ior` of 1 / 1.5."""
-    camera = {"position": [0, 0.5, 5], "look_at": [0, 0, 0], "fov": 40}
-    things = [
-        plane([0, -1.6, 0], [0, 1, 0], "floor"),
-        sphere([0, 0, 0], 1.5, "glass"),
-        sphere([0.3, 0.2, 0], 0.7, "air"),
-    ]
-    ways = (
-        {"glass": glass(1.5, priority=0), "air": glass(1.0, priority=1, roughness=0.5)},
-        {"glass": glass(1.5), "air": glass(1 / 1.5, roughness=0.5)},
-    )
-    sky = {"bottom": [0.1] * 3, "top": [1.0] * 3}
-    first, second = (
-        rendered(scene_of(things, {**way, "floor": MATTE}, camera, background=sky), context, 64)
-        for way in ways
-    )
-    close = np.isclose(first.radiance, second.radiance, rtol=1e-3).all(axis=-1)
-    assert close.mean() > 0.98  # the rest: rays that rounding sends another way
 
 
 @pytest.mark.slow
