@@ -1,7 +1,8 @@
-"""The speed-up by a tree over shapes of one kind, by their number: shapes on a floor.
+"""The speed-up by a tree over shapes of some kinds, by their number: shapes on a floor.
 
 They cover the same share of the floor whatever their number, so that paths are equally long. Rounds
-are interleaved; a ratio is that of two runs of the same round.
+are interleaved; a ratio is that of two runs of the same round. With `--mesh` a ball of triangles
+hangs above them, and the shapes are in its tree or stay outside.
 """
 
 import argparse
@@ -10,6 +11,8 @@ import statistics
 import sys
 import time
 from collections.abc import Iterator, Sequence
+from itertools import cycle
+from pathlib import Path
 from typing import Any, NamedTuple
 from unittest.mock import patch
 
@@ -24,8 +27,12 @@ from glrt.process.command import peak_bytes
 from glrt.rendering import pipelines
 from glrt.rendering.pipelines import MOST_BAKED
 from glrt.rendering.renderer import Renderer
+from glrt.scene.files.assets import AssetFolder
+from glrt.scene.files.named_meshes import mesh_of_arrays
+from glrt.scene.loading.scene_files import with_files
 from glrt.scene.scene import Scene
 from glrt.scene.scenefile.toml import parse_scene
+from tests.support.meshes import blob
 
 COUNTS = (16, 32, 64, 128, 485, 2000, 10_000, 65_000)
 FIRST = 485  # number of shapes with which others are compared
@@ -35,8 +42,13 @@ Table = dict[str, Any]
 Array = np.ndarray[Any, Any]
 
 
-def crowd(count: int, seed: int = 1, kind: str = "sphere") -> Scene:
-    """A scene of `count` shapes, matte and metal, on a floor of 2 x 2 units under a bright sky."""
+def crowd(
+    count: int, seed: int = 1, kinds: Sequence[str] = ("sphere",), mesh: int | None = None
+) -> Scene:
+    """A scene of `count` shapes, matte and metal, on a floor of 2 x 2 units under a bright sky.
+
+    Shapes take the `kinds` in turns. With `mesh`, a ball of 20 * 4**mesh triangles is above them.
+    """
     rng = np.random.default_rng(seed)
     columns = math.ceil(math.sqrt(count))
     cell = 2 / columns
@@ -46,10 +58,14 @@ def crowd(count: int, seed: int = 1, kind: str = "sphere") -> Scene:
     center[:, [0, 2]] += cell * rng.uniform(-0.15, 0.15, (count, 2))
     shapes = [
         {"shape": kind, "material": ("clay", "brass")[i % 2], **_within(kind, c, r, rng)}
-        for i, (c, r) in enumerate(zip(center, radius.tolist(), strict=True))
+        for i, (c, r, kind) in enumerate(zip(center, radius.tolist(), cycle(kinds), strict=False))
     ]
     floor = {"shape": "plane", "point": [0, 0, 0], "normal": [0, 1, 0], "material": "clay"}
-    return parse_scene(
+    if mesh is not None:
+        vertices, faces = blob(mesh)
+        ball = {"shape": "mesh", "file": mesh_of_arrays(vertices * 0.4, faces), "material": "clay"}
+        shapes.append({**ball, "translate": [0, 0.7, 0]})
+    scene = parse_scene(
         {
             "title": f"{count} shapes on a floor",
             "camera": {"position": [0, 1.5, 2.5], "look_at": [0, 0, 0]},
@@ -62,6 +78,7 @@ def crowd(count: int, seed: int = 1, kind: str = "sphere") -> Scene:
         },
         "crowd",
     )
+    return with_files(scene, AssetFolder(Path()), "crowd")
 
 
 def _within(kind: str, center: Array, radius: float, rng: np.random.Generator) -> Table:
@@ -98,12 +115,13 @@ def measure(
     size: int,
     rounds: int,
     constants: int = CONSTANTS,
-    kind: str = "sphere",
+    kinds: Sequence[str] = ("sphere",),
+    mesh: int | None = None,
 ) -> list[Row]:
     """Measure all `counts` interleaved, with a tree, and without (baked up to `constants`)."""
     tree, loop, setup = {}, {}, {}
     for count in counts:
-        scene = crowd(count, kind=kind)
+        scene = crowd(count, kinds=kinds, mesh=mesh)
         start = time.perf_counter()
         tree[count] = _renderer(context, scene, size, tree_from=1)
         setup[count] = time.perf_counter() - start
@@ -127,10 +145,12 @@ def _renderer(
 ) -> Renderer:
     """A renderer with a tree from `tree_from` shapes on, baked up to `most_baked` of them.
 
-    Spheres are found by their own.
+    Spheres are found by their own, unless other kinds or a mesh are there.
     """
+    is_mixed = len({thing.shape for thing in scene.objects}) > 2  # the floor is one
+    own = 1 << 30 if is_mixed else tree_from
     with (
-        patch.multiple(facts, SPHERES_FROM=tree_from, TREE_FROM=tree_from),
+        patch.multiple(facts, SPHERES_FROM=own, TREE_FROM=tree_from, REST_FROM=tree_from),
         patch.object(pipelines, "MOST_BAKED", most_baked),
     ):
         return Renderer(scene, context=context, tier="baked", width=size, height=size)
@@ -161,9 +181,9 @@ def _ratio(a: Sequence[float], b: Sequence[float]) -> tuple[float, float, float]
     return middle, low, high
 
 
-def table(rows: Sequence[Row], pixels: int, kind: str = "sphere") -> Iterator[str]:
+def table(rows: Sequence[Row], pixels: int, kinds: Sequence[str] = ("sphere",)) -> Iterator[str]:
     """The rows as Markdown."""
-    columns = [plural(kind), "set-up", "loop over all, million samples/s", "tree"]
+    columns = [", ".join(map(plural, kinds)), "set-up", "loop over all, million samples/s", "tree"]
     columns += ["speed-up by the tree", f"time over that of {FIRST}"]
     yield f"| {' | '.join(columns)} |"
     yield "|---|---|---|---|---|---|"
@@ -186,18 +206,22 @@ def main(arguments: list[str] | None = None) -> int:
 
 def _print(parsed: argparse.Namespace) -> None:
     context = open_context()
-    shape: str = parsed.shape
-    rows = measure(context, parsed.counts, parsed.size, parsed.rounds, parsed.constants, kind=shape)
+    kinds: list[str] = parsed.shape
+    limits = (parsed.counts, parsed.size, parsed.rounds, parsed.constants)
+    rows = measure(context, *limits, kinds=kinds, mesh=parsed.mesh)
     work = f"{parsed.size} x {parsed.size} pixels, {parsed.rounds} rounds"
     print(f"{machine(context.renderer)}, {work}\n")
-    print("\n".join(table(rows, parsed.size**2, shape)))
+    print("\n".join(table(rows, parsed.size**2, kinds)))
     print(f"\npeak memory {(peak_bytes() or 0) / 2**20:.0f} MiB")
 
 
 def _parser() -> argparse.ArgumentParser:
     parser = parser_of("shape_counts", __doc__)
     add = parser.add_argument
-    add("--shape", choices=KINDS, default="sphere", help="kind of shape (default: sphere)")
+    told = "kinds of shapes, in turns (default: sphere)"
+    add("--shape", choices=KINDS, nargs="+", default=["sphere"], metavar="KIND", help=told)
+    told = "a ball of 20 * 4^LEVEL triangles above them"
+    add("--mesh", type=int, metavar="LEVEL", help=told)
     add("--counts", type=int, nargs="+", metavar="N", default=list(COUNTS))
     add_rounds(parser, size=96, rounds=9)
     told = f"most shapes to bake for the loop over all (default: {CONSTANTS})"

@@ -24,11 +24,33 @@ def test_balls_of_a_crowd_stand_on_the_floor_and_do_not_touch(count: int) -> Non
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_shapes_of_all_kinds_lie_within_their_balls(kind: str) -> None:
-    balls, shapes = crowd(50).objects[:-1], crowd(50, kind=kind).objects[:-1]
+    balls, shapes = crowd(50).objects[:-1], crowd(50, kinds=[kind]).objects[:-1]
     assert {shape.shape for shape in shapes} == {kind}
     for ball, shape in zip(balls, shapes, strict=True):
         assert np.allclose(ball.middle, shape.middle, atol=0.2)
         assert shape.reach <= max(other.reach for other in balls) * (1 + 1e-9)
+
+
+def test_kinds_take_turns_below_a_mesh() -> None:
+    kinds = [it.shape for it in crowd(5, kinds=["box", "disk"], mesh=2).objects]
+    assert kinds == ["box", "disk", "box", "disk", "box", "mesh", "plane"]
+
+
+@pytest.mark.slow
+def test_shapes_are_in_the_tree_of_a_mesh_or_outside(
+    context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    in_tree: list[bool] = []
+    seconds = shape_counts._seconds
+
+    def noted(renderer: Renderer) -> float:
+        in_tree.append(renderer.plan.needs.has_tree)
+        return seconds(renderer)
+
+    monkeypatch.setattr(shape_counts, "_seconds", noted)
+    (row,) = measure(context, [40], size=8, rounds=2, kinds=["sphere", "box"], mesh=2)
+    assert in_tree == 2 * [True, False]
+    assert row.gain
 
 
 @pytest.mark.slow
