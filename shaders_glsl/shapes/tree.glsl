@@ -1,5 +1,6 @@
-// Rays against the tree over bounded shapes. One loop reads one slot per round, as a node or as a leaf. So a
-// driver that computes both sides of a branch waits for neither.
+// Rays against the tree over bounded shapes. A round reads one slot, as a node or as a leaf, since a driver may compute
+// both sides of a branch. Where leaves hold several kinds of shapes, their tests take longer than a node: there the
+// lanes that have found a leaf wait for the others.
 
 const uint LEAF = 0x80000000u;
 const uint LINK = 0x07FFFFFFu;
@@ -10,6 +11,8 @@ Hit nearer(Ray ray, Hit hit, float t, int shape, int ignored) {
     if (t > 0.0 && (is_nearer(ray, t, shape, hit) || is_first) && shape != ignored) hit = Hit(t, shape);
     return hit;
 }
+
+bool has_shape(Slot slot) { return (slot.d.w & LEAF) != 0u; }
 
 int kind_of(Slot leaf) { return int(leaf.d.w >> 27u & 15u); }
 
@@ -109,8 +112,8 @@ float limit_of(Ray ray, Course course, Hit hit) {
 // number. Children are visited in the order in which the ray enters them. `group` contains the number of children
 // left, from bit 24 on, and the numbers of these children, 3 bits each, the nearest first.
 void visit_nearest(Ray ray, Course course, Slot slot, int ignored, inout Walk walk, inout Hit hit) {
-    bool is_leaf = (slot.d.w & LEAF) != 0u;
-    if (is_leaf) hit = meet_leaf(ray, course.turned, course.instance, slot, hit, ignored);
+    bool is_leaf = has_shape(slot);
+    if (!HAS_TREE && is_leaf) hit = meet_leaf(ray, course.turned, course.instance, slot, hit, ignored);
     Children children = children_of(slot, course.grid);
     float limit = limit_of(ray, course, hit);
     uint k0 = meets_child(children, 0u, children.near_low, children.far_low, limit);
@@ -156,8 +159,8 @@ void visit_nearest(Ray ray, Course course, Slot slot, int ignored, inout Walk wa
 
 // Visits a slot on the way to any shape nearer than hit.distance, in no order: `group` lists children by bits.
 void visit_any(Ray ray, Course course, Slot slot, int ignored, inout Walk walk, inout Hit hit) {
-    bool is_leaf = (slot.d.w & LEAF) != 0u;
-    if (is_leaf) hit = meet_leaf(ray, course.turned, course.instance, slot, hit, ignored);
+    bool is_leaf = has_shape(slot);
+    if (!HAS_TREE && is_leaf) hit = meet_leaf(ray, course.turned, course.instance, slot, hit, ignored);
     Children children = children_of(slot, course.grid);
     float limit = limit_of(ray, course, hit);
     uint met = uint(meets_child(children, 0u, children.near_low, children.far_low, limit) != NO_CHILD)
@@ -186,6 +189,12 @@ void visit_any(Ray ray, Course course, Slot slot, int ignored, inout Walk walk, 
     pop_if(pops, walk.stack);
     walk.place = int(walk.group.x) + findLSB(walk.group.y);
     walk.group.y &= walk.group.y - 1u;
+}
+
+// Visits a slot. Its shape, if it has one, is not tested yet.
+void visit(Ray ray, Course course, Slot slot, int ignored, bool any, inout Walk walk, inout Hit hit) {
+    if (any) visit_any(ray, course, slot, ignored, walk, hit);
+    else visit_nearest(ray, course, slot, ignored, walk, hit);
 }
 
 // A ray in the frame of a tree: the data that a course is computed from.
@@ -238,9 +247,20 @@ Hit find_by_tree(Ray ray, Hit hit, int ignored, bool any) {
     Left left = left_by(ray);
     Walk walk = walk_from_root();
     while (walk.goes_on) {
-        Slot slot = slot_at(walk.place);
-        if (any) visit_any(ray, course, slot, ignored, walk, hit);
-        else visit_nearest(ray, course, slot, ignored, walk, hit);
+        Slot slot;
+        if (HAS_TREE) {
+            bool seeks = true;
+            while (seeks) {
+                slot = slot_at(walk.place);
+                visit(ray, course, slot, ignored, any, walk, hit);
+                seeks = walk.goes_on && !has_shape(slot) && !walk.gets_out;
+            }
+            if (has_shape(slot)) hit = meet_leaf(ray, course.turned, course.instance, slot, hit, ignored);
+            if (any) walk.goes_on = walk.goes_on && hit.shape == NO_SHAPE;
+        } else {
+            slot = slot_at(walk.place);
+            visit(ray, course, slot, ignored, any, walk, hit);
+        }
         if (HAS_INSTANCE) {
             among = next_among(among, outside, walk, slot, left);
             course = course_of(among, start.skipped);
