@@ -24,7 +24,8 @@ FILE = "scene_arrays.glsl"
 MOST_UNIFORM_BYTES = 65_536  # llvmpipe's limit; quads are 1.05 times as fast as in a texture
 LEAST_ROWS = 32
 READ = "ReadRows"  # the block of the fields of constant structs that are read
-MOST_READ = 32  # its rows
+MOST_READ = 64  # its rows
+LOOP = 32  # rows of constants in one loop: Mesa unrolls loops over whole arrays of up to 32 rows
 MOST_DOUBLED = 64  # rows of a texture that grows to powers of two; beyond, in smaller steps
 
 _BITS = 9
@@ -39,10 +40,15 @@ def block_of(struct: str) -> str:
 
 
 class Layout(NamedTuple):
-    """Which arrays a kernel has as constants, and the fields that it reads nonetheless."""
+    """Which arrays a kernel has as constants, and what it reads nonetheless."""
 
     constant: Collection[str] = ()  # structs
     read: Mapping[str, str] = {}  # a vec3 of constant structs
+    looked_up: Collection[str] = ()  # constant structs whose rows are constants in loops alone
+
+    def is_read(self, struct: str) -> bool:
+        """Whether a kernel reads the rows of a struct from a block or texture."""
+        return struct not in self.constant or struct in self.looked_up
 
 
 def scene_arrays(
@@ -53,25 +59,34 @@ def scene_arrays(
     Each struct has `sphere_at(index)` and, if the struct Frame counts it, `sphere_count()`. Structs
     that are `numbered` share one numbering, in this order: `first_sphere()` is the number of the
     first, `is_sphere(number)` is true for this kind alone, and `up_to_sphere(number)` for this kind
-    and earlier ones, if the number is that of a shape and not of a triangle. Structs that are
-    constant by the layout, or have no rows, are written into the text; fields that the layout reads
-    come from the block READ. Uniform blocks have at most `uniform_bytes` bytes.
+    and earlier ones, if the number is that of a shape and not of a triangle. Loops over all their
+    rows come in two: `sphere_of_first(index)` up to `sphere_first_count()`, and
+    `sphere_of_second(index)`, which is row LOOP + index. Structs that are constant by the layout,
+    or have no rows, are written into the text; fields that the layout reads come from the block
+    READ. Uniform blocks have at most `uniform_bytes` bytes.
     """
-    constant, first = layout.constant, _first_reads(arrays, layout)
-    parts = ["layout(std140) uniform FrameBlock { Frame frame; };"]
-    if first:
+    reads = _reads(arrays, layout)
+    parts = [
+        "layout(std140) uniform FrameBlock { Frame frame; };",
+        f"const bool SHAPES_ARE_CONSTANT = {str(bool(layout.constant)).lower()};",
+        f"const int LOOP = {LOOP};",
+    ]
+    if reads:
         parts.append(f"layout(std140) uniform {READ} {{ vec4 read_rows[{MOST_READ}]; }};")
     for struct, rows in arrays.items():
+        name, is_constant = struct.lower(), struct in layout.constant
         if not len(rows):
-            parts += [_nothing(struct, rows), _count(struct, "0")]
-        elif struct in constant:
-            reads = (layout.read[struct], first[struct]) if struct in first else None
-            parts += [_constants(struct, rows, reads), _count(struct, str(len(rows)))]
-        else:
+            parts += [_nothing(struct, rows, f"{name}_at"), _count(name, "0")]
+        elif layout.is_read(struct):
             in_block = is_uniform(struct, rows, uniform_bytes)
             parts.append(_uniform(struct, rows) if in_block else _texture(struct, rows))
-            if struct in (*numbered, *COUNTED):
-                parts.append(_count(struct, f"frame.{struct.lower()}_count"))
+        else:
+            parts.append(_constants(struct, rows, f"{name}_at", f"{name}_rows", reads.get(struct)))
+        if len(rows) and (is_constant or struct in (*numbered, *COUNTED)):
+            parts.append(_count(name, str(len(rows)) if is_constant else f"frame.{name}_count"))
+        if struct in numbered:
+            halves = struct in layout.looked_up
+            parts += _halves(struct, rows, reads.get(struct)) if halves else _whole(struct, rows)
     return "\n".join([*parts, *_numbering(arrays, numbered)]) + "\n"
 
 
@@ -93,7 +108,7 @@ def read_content(arrays: Arrays, read: Mapping[str, str]) -> bytes:
 
 
 def upload(
-    gl: moderngl.Context, arrays: Arrays, constant: Collection[str], uniform_bytes: int
+    gl: moderngl.Context, arrays: Arrays, layout: Layout, uniform_bytes: int
 ) -> dict[str, moderngl.Buffer | moderngl.Texture]:
     """Return buffers and textures of the arrays as `scene_arrays` declares them, by name.
 
@@ -104,7 +119,7 @@ def upload(
         if is_uniform(struct, rows, uniform_bytes)
         else texture_of(gl, rows)
         for struct, rows in arrays.items()
-        if struct not in constant and len(rows)
+        if layout.is_read(struct) and len(rows)
     }
 
 
@@ -164,54 +179,83 @@ def _numbering(arrays: Arrays, numbered: Sequence[str]) -> list[str]:
     return lines
 
 
-def _count(struct: str, value: str) -> str:
-    return f"int {struct.lower()}_count() {{ return {value}; }}"
-
-
-def _getter(struct: str) -> str:
+def _whole(struct: str, rows: Array) -> list[str]:
+    """Return the functions of a loop over all rows; the second loop has none."""
     name = struct.lower()
-    return f"{struct} {name}_at(int index) {{ return {name}_rows[index]; }}"
+    return [
+        f"{struct} {name}_of_first(int index) {{ return {name}_at(index); }}",
+        _count(f"{name}_first", f"{name}_count()"),
+        _nothing(struct, rows, f"{name}_of_second"),
+        _count(f"{name}_second", "0"),
+    ]
 
 
-def _nothing(struct: str, rows: Array) -> str:
+def _halves(struct: str, rows: Array, reads: "Reads | None") -> list[str]:
+    """Return the functions of two loops over constants."""
+    name, parts = struct.lower(), []
+    for half, some in (("first", rows[:LOOP]), ("second", rows[LOOP:])):
+        getter = f"{name}_of_{half}"
+        read = reads and Reads(reads.field, reads.first + LOOP * (half == "second"))
+        text = _constants(struct, some, getter, f"{name}_{half}_rows", read) if len(some) else ""
+        parts += [text or _nothing(struct, rows, getter), _count(f"{name}_{half}", str(len(some)))]
+    return parts
+
+
+def _count(name: str, value: str) -> str:
+    return f"int {name}_count() {{ return {value}; }}"
+
+
+def _getter(struct: str, getter: str, array: str) -> str:
+    return f"{struct} {getter}(int index) {{ return {array}[index]; }}"
+
+
+def _nothing(struct: str, rows: Array, getter: str) -> str:
     """Return the function of an empty array, which GLSL does not have: it gives zeros."""
     zero = _constructor(struct, np.zeros(1, rows.dtype)[0])
-    return f"{struct} {struct.lower()}_at(int index) {{ return {zero}; }}"
+    return f"{struct} {getter}(int index) {{ return {zero}; }}"
 
 
-def _first_reads(arrays: Arrays, layout: Layout) -> dict[str, int]:
-    """Return the row of the block READ with which each struct begins that has rows there."""
+class Reads(NamedTuple):
+    """A field of a constant struct that lies in the block READ, and its first row there."""
+
+    field: str
+    first: int
+
+
+def _reads(arrays: Arrays, layout: Layout) -> dict[str, Reads]:
+    """Return what each struct with rows reads from the block READ."""
     lengths = [len(arrays[struct]) for struct in layout.read]
     starts = accumulate(lengths, initial=0)
-    return {name: at for name, at, rows in zip(layout.read, starts, lengths, strict=False) if rows}
+    fields = layout.read.items()
+    rows = zip(fields, starts, lengths, strict=False)
+    return {struct: Reads(field, first) for (struct, field), first, length in rows if length}
 
 
-def _constants(struct: str, rows: Array, reads: tuple[str, int] | None) -> str:
-    """Return the GLSL of constants; `reads` are a field and its first row in the block READ."""
-    getter = _getter(struct)
+def _constants(struct: str, rows: Array, getter: str, array: str, reads: Reads | None) -> str:
+    """Return the GLSL of constants and of the function by which a kernel gets one."""
+    function = _getter(struct, getter, array)
     if reads:
-        field, first = reads
         rows = rows.copy()
-        rows[field] = 0
-        name = struct.lower()
-        getter = "\n".join(
+        rows[reads.field] = 0
+        function = "\n".join(
             [
-                f"{struct} {name}_at(int index) {{",
-                f"    {struct} row = {name}_rows[index];",
-                f"    row.{field} = read_rows[{first} + index].xyz;",
+                f"{struct} {getter}(int index) {{",
+                f"    {struct} row = {array}[index];",
+                f"    row.{reads.field} = read_rows[{reads.first} + index].xyz;",
                 "    return row;",
                 "}",
             ]
         )
     listed = ",\n    ".join(_constructor(struct, row) for row in rows)
-    kind, name = f"{struct}[{len(rows)}]", f"{struct.lower()}_rows[{len(rows)}]"
-    return f"const {struct} {name} = {kind}(\n    {listed});\n{getter}"
+    size = f"[{len(rows)}]"
+    return f"const {struct} {array}{size} = {struct}{size}(\n    {listed});\n{function}"
 
 
 def _uniform(struct: str, rows: Array) -> str:
-    name = f"{struct.lower()}_rows[{_capacity(rows)}]"
-    block = f"layout(std140) uniform {block_of(struct)} {{ {struct} {name}; }};"
-    return f"{block}\n{_getter(struct)}"
+    name = struct.lower()
+    array = f"{struct} {name}_rows[{_capacity(rows)}];"
+    block = f"layout(std140) uniform {block_of(struct)} {{ {array} }};"
+    return f"{block}\n{_getter(struct, f'{name}_at', f'{name}_rows')}"
 
 
 def _texture(struct: str, rows: Array) -> str:

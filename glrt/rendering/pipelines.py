@@ -35,6 +35,10 @@ RESERVOIRS = "held_reservoirs"  # the texture of what samples keep for later one
 TEXELS = "map_texels"  # the texture of all images on surfaces
 VOXELS = "grid_voxels"  # the texture of all grids of media
 MOST_BAKED = MOST_READ  # shapes
+MOST_CHOSEN = (
+    32,
+    8,
+)  # shapes of a scene, or else of a kind, whose rows are all chosen among constants
 SHAPES = (*NUMBERED, "Target", "Sides")  # arrays that follow from the shapes alone
 
 
@@ -74,7 +78,11 @@ def tier_for(arrays: Arrays, wanted: Tier) -> Tier:
 
 
 def _can_bake(arrays: Arrays) -> bool:
-    return sum(len(arrays[struct]) for struct in NUMBERED) <= MOST_BAKED
+    return _shapes(arrays) <= MOST_BAKED
+
+
+def _shapes(arrays: Arrays) -> int:
+    return sum(len(arrays[struct]) for struct in NUMBERED)
 
 
 def scene_text(gl: moderngl.Context, arrays: Arrays, tier: Tier) -> str:
@@ -84,7 +92,7 @@ def scene_text(gl: moderngl.Context, arrays: Arrays, tier: Tier) -> str:
 
 def text_of(arrays: Arrays, tier: Tier, most_bytes: int) -> str:
     """Like `scene_text`, for a driver whose uniform blocks hold `most_bytes` bytes."""
-    return scene_arrays(arrays, NUMBERED, _layout(tier), most_bytes) + _SKY
+    return scene_arrays(arrays, NUMBERED, _layout(arrays, tier), most_bytes) + _SKY
 
 
 _SKY = f"""
@@ -116,13 +124,25 @@ vec4 voxel_at(int index) {{
 
 def upload(gl: moderngl.Context, arrays: Arrays, tier: Tier) -> dict[str, Resource]:
     """Upload the arrays as the generated file declares them, by block and texture name."""
-    return dict(struct_arrays.upload(gl, arrays, _layout(tier).constant, uniform_bytes(gl)))
+    return dict(struct_arrays.upload(gl, arrays, _layout(arrays, tier), uniform_bytes(gl)))
 
 
-def _layout(tier: Tier) -> Layout:
+def _layout(arrays: Arrays, tier: Tier) -> Layout:
+    if tier == "generic":
+        return Layout()
     if tier == "placed":
-        return Layout(NUMBERED, PLACES)
-    return Layout(SHAPES if tier == "baked" else ())
+        return Layout(NUMBERED, PLACES, _looked_up(arrays))
+    return Layout(SHAPES, looked_up=_looked_up(arrays))
+
+
+def _looked_up(arrays: Arrays) -> list[str]:
+    """Structs whose rows are read where any of them may be asked for.
+
+    To choose among many constants takes long to compile, and to read few rows takes long to run.
+    """
+    in_all, of_kind = MOST_CHOSEN
+    is_few = _shapes(arrays) <= in_all
+    return [struct for struct in NUMBERED if not is_few and len(arrays[struct]) > of_kind]
 
 
 def places(gl: moderngl.Context, arrays: Arrays) -> dict[str, Resource]:
