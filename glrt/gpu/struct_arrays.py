@@ -68,8 +68,9 @@ def scene_arrays(
     reads = _reads(arrays, layout)
     parts = [
         "layout(std140) uniform FrameBlock { Frame frame; };",
-        f"const bool SHAPES_ARE_CONSTANT = {str(bool(layout.constant)).lower()};",
+        f"const bool SHAPES_ARE_CONSTANT = {_bool(layout.constant)};",
         f"const int LOOP = {LOOP};",
+        f"const bool HAS_SECOND_LOOP = {_bool(any(len(arrays[struct]) > LOOP for struct in layout.looked_up))};",
     ]
     if reads:
         parts.append(f"layout(std140) uniform {READ} {{ vec4 read_rows[{MOST_READ}]; }};")
@@ -184,8 +185,8 @@ def _whole(struct: str, rows: Array) -> list[str]:
     name = struct.lower()
     return [
         f"{struct} {name}_of_first(int index) {{ return {name}_at(index); }}",
+        f"{struct} {name}_of_second(int index) {{ return {name}_at(index); }}",
         _count(f"{name}_first", f"{name}_count()"),
-        _nothing(struct, rows, f"{name}_of_second"),
         _count(f"{name}_second", "0"),
     ]
 
@@ -199,6 +200,10 @@ def _halves(struct: str, rows: Array, reads: "Reads | None") -> list[str]:
         text = _constants(struct, some, getter, f"{name}_{half}_rows", read) if len(some) else ""
         parts += [text or _nothing(struct, rows, getter), _count(f"{name}_{half}", str(len(some)))]
     return parts
+
+
+def _bool(value: object) -> str:
+    return "true" if value else "false"
 
 
 def _count(name: str, value: str) -> str:

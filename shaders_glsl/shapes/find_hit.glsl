@@ -4,8 +4,6 @@
 // Whether the rounds of a sample are a guess (glrt/rendering/schedule.py): a dispatch may lose samples, and reports it.
 const bool MAY_LOSE = HAS_SPHERE_TREE || HAS_TREE || HAS_MESH || HAS_HOLE || HAS_RANKS || HAS_GRID;
 
-// Few shapes are constants, and loops over them take less time than a tree; a tree of meshes has its shapes anyway.
-const bool BY_TREE = HAS_TREE && (HAS_MESH || !SHAPES_ARE_CONSTANT);
 const bool SPHERES_BY_TREE = HAS_SPHERE_TREE && !SHAPES_ARE_CONSTANT;
 
 // The nearer of a hit and that of the shape i of its kind. Other kinds come after the spheres, so that only hits among
@@ -55,38 +53,50 @@ Hit find_in_loops(Ray ray, Hit hit, int ignored) {
     if (HAS_SPHERE && !BY_TREE && !SPHERES_BY_TREE) {
         for (i = 0; i < sphere_first_count(); ++i) hit = with_sphere(ray, sphere_of_first(i), i, hit, ignored);
         note_end(i, sphere_first_count());
-        for (i = 0; i < sphere_second_count(); ++i) hit = with_sphere(ray, sphere_of_second(i), LOOP + i, hit, ignored);
-        note_end(i, sphere_second_count());
+        if (HAS_SECOND_LOOP) {
+            for (i = 0; i < sphere_second_count(); ++i) hit = with_sphere(ray, sphere_of_second(i), LOOP + i, hit, ignored);
+            note_end(i, sphere_second_count());
+        }
     }
     if (HAS_PLANE) {
         for (i = 0; i < plane_first_count(); ++i) hit = with_plane(ray, plane_of_first(i), i, hit);
         note_end(i, plane_first_count());
-        for (i = 0; i < plane_second_count(); ++i) hit = with_plane(ray, plane_of_second(i), LOOP + i, hit);
-        note_end(i, plane_second_count());
+        if (HAS_SECOND_LOOP) {
+            for (i = 0; i < plane_second_count(); ++i) hit = with_plane(ray, plane_of_second(i), LOOP + i, hit);
+            note_end(i, plane_second_count());
+        }
     }
     if (HAS_QUAD && !BY_TREE) {
         for (i = 0; i < quad_first_count(); ++i) hit = with_quad(ray, quad_of_first(i), i, hit, ignored);
         note_end(i, quad_first_count());
-        for (i = 0; i < quad_second_count(); ++i) hit = with_quad(ray, quad_of_second(i), LOOP + i, hit, ignored);
-        note_end(i, quad_second_count());
+        if (HAS_SECOND_LOOP) {
+            for (i = 0; i < quad_second_count(); ++i) hit = with_quad(ray, quad_of_second(i), LOOP + i, hit, ignored);
+            note_end(i, quad_second_count());
+        }
     }
     if (HAS_DISK && !BY_TREE) {
         for (i = 0; i < disk_first_count(); ++i) hit = with_disk(ray, disk_of_first(i), i, hit, ignored);
         note_end(i, disk_first_count());
-        for (i = 0; i < disk_second_count(); ++i) hit = with_disk(ray, disk_of_second(i), LOOP + i, hit, ignored);
-        note_end(i, disk_second_count());
+        if (HAS_SECOND_LOOP) {
+            for (i = 0; i < disk_second_count(); ++i) hit = with_disk(ray, disk_of_second(i), LOOP + i, hit, ignored);
+            note_end(i, disk_second_count());
+        }
     }
     if (HAS_BOX && !BY_TREE) {
         for (i = 0; i < box_first_count(); ++i) hit = with_box(ray, box_of_first(i), i, hit);
         note_end(i, box_first_count());
-        for (i = 0; i < box_second_count(); ++i) hit = with_box(ray, box_of_second(i), LOOP + i, hit);
-        note_end(i, box_second_count());
+        if (HAS_SECOND_LOOP) {
+            for (i = 0; i < box_second_count(); ++i) hit = with_box(ray, box_of_second(i), LOOP + i, hit);
+            note_end(i, box_second_count());
+        }
     }
     if (HAS_CYLINDER && !BY_TREE) {
         for (i = 0; i < cylinder_first_count(); ++i) hit = with_cylinder(ray, cylinder_of_first(i), i, hit);
         note_end(i, cylinder_first_count());
-        for (i = 0; i < cylinder_second_count(); ++i) hit = with_cylinder(ray, cylinder_of_second(i), LOOP + i, hit);
-        note_end(i, cylinder_second_count());
+        if (HAS_SECOND_LOOP) {
+            for (i = 0; i < cylinder_second_count(); ++i) hit = with_cylinder(ray, cylinder_of_second(i), LOOP + i, hit);
+            note_end(i, cylinder_second_count());
+        }
     }
     return hit;
 }

@@ -2,6 +2,9 @@
 // both sides of a branch. Where leaves hold several kinds of shapes, their tests take longer than a node: there the
 // lanes that have found a leaf wait for the others.
 
+// Loops over shapes that are constants take less time than a tree, even if its triangles are found by it.
+const bool BY_TREE = HAS_TREE && !SHAPES_ARE_CONSTANT;
+
 const uint LEAF = 0x80000000u;
 const uint LINK = 0x07FFFFFFu;
 
@@ -39,7 +42,7 @@ Hit meet_leaf(Ray ray, ShearedRay turned, int instance, Slot slot, Hit hit, int 
         if (HAS_HIDDEN_BACK && meets_hidden(turned, p, r, s, slot.d.z >> 2u)) second = 0.0;
         if (triangles.y != ray.origin_shape) hit = nearer(ray, hit, second, triangles.y, ignored);
     }
-    if (!HAS_TREE) return hit;
+    if (!BY_TREE) return hit;
     int shape = number_in(slot);
     if (HAS_SPHERE && !HAS_SPHERE_TREE && kind == SPHERE) {
         float t = sphere_distance(ray, Sphere(a.xyz, a.w, 0, NO_LIGHT), shape);
@@ -113,7 +116,7 @@ float limit_of(Ray ray, Course course, Hit hit) {
 // left, from bit 24 on, and the numbers of these children, 3 bits each, the nearest first.
 void visit_nearest(Ray ray, Course course, Slot slot, int ignored, inout Walk walk, inout Hit hit) {
     bool is_leaf = has_shape(slot);
-    if (!HAS_TREE && is_leaf) hit = meet_leaf(ray, course.turned, course.instance, slot, hit, ignored);
+    if (!BY_TREE && is_leaf) hit = meet_leaf(ray, course.turned, course.instance, slot, hit, ignored);
     Children children = children_of(slot, course.grid);
     float limit = limit_of(ray, course, hit);
     uint k0 = meets_child(children, 0u, children.near_low, children.far_low, limit);
@@ -160,7 +163,7 @@ void visit_nearest(Ray ray, Course course, Slot slot, int ignored, inout Walk wa
 // Visits a slot on the way to any shape nearer than hit.distance, in no order: `group` lists children by bits.
 void visit_any(Ray ray, Course course, Slot slot, int ignored, inout Walk walk, inout Hit hit) {
     bool is_leaf = has_shape(slot);
-    if (!HAS_TREE && is_leaf) hit = meet_leaf(ray, course.turned, course.instance, slot, hit, ignored);
+    if (!BY_TREE && is_leaf) hit = meet_leaf(ray, course.turned, course.instance, slot, hit, ignored);
     Children children = children_of(slot, course.grid);
     float limit = limit_of(ray, course, hit);
     uint met = uint(meets_child(children, 0u, children.near_low, children.far_low, limit) != NO_CHILD)
@@ -248,7 +251,7 @@ Hit find_by_tree(Ray ray, Hit hit, int ignored, bool any) {
     Walk walk = walk_from_root();
     while (walk.goes_on) {
         Slot slot;
-        if (HAS_TREE) {
+        if (BY_TREE) {
             bool seeks = true;
             while (seeks) {
                 slot = slot_at(walk.place);
