@@ -79,7 +79,7 @@ def measure(context: Context, name: str, asked: argparse.Namespace) -> Row:
     """Render a scene both ways; every round has a seed of its own."""
     scene = load(name)
     size: dict[str, Any] = {"width": asked.size, "height": asked.size, "context": context}
-    opened = {way: Renderer(scene, tier="baked", adaptive=way, **size) for way in WAYS}
+    opened = {way: Renderer(scene, tier="complete", adaptive=way, **size) for way in WAYS}
     radiance: dict[str, list[Pixels]] = {way: [] for way in WAYS}
     images: dict[str, Image] = {}
     for seed in range(1, asked.rounds + 1):

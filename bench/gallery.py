@@ -112,7 +112,7 @@ def _known(names: Sequence[str]) -> list[str]:
 
 def _render(folder: Path, name: str, context: Context, settings: dict[str, Any]) -> Picture:
     scene = load(name)
-    renderer = Renderer(scene, context=context, tier="baked", **settings)
+    renderer = Renderer(scene, context=context, tier="complete", **settings)
     try:
         start = time.perf_counter()
         image = renderer.render().image()

@@ -110,7 +110,7 @@ def measure(
     found = []
     for sampler in ("net", "sobol"):
         scene = scene_of(name)
-        renderer = Renderer(scene, context=context, tier="baked", sampler=sampler, **options)
+        renderer = Renderer(scene, context=context, tier="complete", sampler=sampler, **options)
         try:
             found.append(pictures_of(renderer, samples, renders))
         finally:

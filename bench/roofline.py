@@ -99,7 +99,7 @@ def measure(
     """The peak in operations per second, and a row for each scene and method; interleaved."""
     peak, jobs = Peak(context), list(product(scenes, METHODS))
     renderers = [
-        Renderer(load(n), context=context, tier="baked", method=m, width=size, height=size)
+        Renderer(load(n), context=context, tier="complete", method=m, width=size, height=size)
         for n, m in jobs
     ]
     peaks: list[float] = []

@@ -61,7 +61,7 @@ def measure(
     size: dict[str, Any] = {"width": asked.size, "height": asked.size, "caustics": asked.caustics}
     scene = scene_of(name)
     opened = {
-        it: Renderer(scene, context=context, tier="baked", sampler=it, **size) for it in SAMPLERS
+        it: Renderer(scene, context=context, tier="complete", sampler=it, **size) for it in SAMPLERS
     }
     images: dict[str, list[Image]] = {it: [] for it in SAMPLERS}
     seconds: dict[str, list[float]] = {it: [] for it in SAMPLERS}

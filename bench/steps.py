@@ -62,7 +62,7 @@ def _run(parsed: argparse.Namespace) -> None:
 
 
 def _rendered(context: Context, scene: Scene, **settings: Any) -> Image:
-    renderer = Renderer(scene, context=context, tier="baked", **settings)
+    renderer = Renderer(scene, context=context, tier="complete", **settings)
     try:
         return renderer.render().image()
     finally:

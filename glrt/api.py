@@ -32,7 +32,7 @@ def render(
     renderer = Renderer(
         scene,
         context=context,
-        tier="baked",
+        tier="complete",
         part=part,
         opens_shutter=True,
         samples=samples,

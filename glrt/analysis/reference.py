@@ -180,7 +180,7 @@ def unlimited(scene: Scene, settings: Settings, context: Context) -> Settings:
 def _halves(scene: Scene, settings: Settings, context: Context) -> list[Renderer]:
     wanted = unlimited(scene, settings, context)
     return [
-        Renderer(scene, wanted, context, "baked", variant=OTHER_NUMBERS, seed=seed)
+        Renderer(scene, wanted, context, "complete", variant=OTHER_NUMBERS, seed=seed)
         for seed in SEEDS
     ]
 

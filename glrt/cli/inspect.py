@@ -140,7 +140,9 @@ def _kernel(arguments: argparse.Namespace, scene: Scene, settings: Settings) -> 
     context = open_context(arguments.context, arguments.pipeline)
     try:
         recipe, pipeline = recipe_of(arguments.scene), arguments.pipeline
-        renderer = open_renderer(scene, settings, recipe, context, tier="baked", pipeline=pipeline)
+        renderer = open_renderer(
+            scene, settings, recipe, context, tier="complete", pipeline=pipeline
+        )
         text = renderer.shaders[-1].live.text
         renderer.release()
         return text

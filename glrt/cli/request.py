@@ -135,13 +135,13 @@ def opened(order: Order, arguments: argparse.Namespace) -> Renderer:
     route, pipeline = arguments.context, arguments.pipeline
     if order.begun is None:
         recipe = recipe_of(arguments.scene)
-        own: Opening = {"tier": "baked", "pipeline": pipeline, "opens_shutter": True}
+        own: Opening = {"tier": "complete", "pipeline": pipeline, "opens_shutter": True}
         own |= {"part": order.part, "decisions": order.decisions}
         return open_renderer(order.scene, order.settings, recipe, route, **own)
     recipe = recipe_to_resume(order.begun)
     if pipeline == "auto" and recipe.pipeline == "fragment":
         pipeline = "fragment"
-    tier: Tier = next((tier for tier in TIERS if tier == recipe.tier), "baked")
+    tier: Tier = next((tier for tier in TIERS if tier == recipe.tier), "complete")
     with _going_on(arguments.resume):
         renderer = Renderer(
             *(order.scene, order.settings, route, tier, pipeline),

@@ -73,7 +73,7 @@ class PictureWork:
         else:
             settings = job.settings.model_copy(update={"crop": crop})
             self._renderer = Renderer(
-                *(job.scene, settings, job.context, "baked", job.pipeline),
+                *(job.scene, settings, job.context, "complete", job.pipeline),
                 decisions=job.decisions,
                 opens_shutter=True,
             )

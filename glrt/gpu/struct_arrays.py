@@ -66,11 +66,12 @@ def scene_arrays(
     READ. Uniform blocks have at most `uniform_bytes` bytes.
     """
     reads = _reads(arrays, layout)
+    has_more = any(len(arrays[struct]) > LOOP for struct in layout.looked_up)
     parts = [
         "layout(std140) uniform FrameBlock { Frame frame; };",
         f"const bool SHAPES_ARE_CONSTANT = {_bool(layout.constant)};",
         f"const int LOOP = {LOOP};",
-        f"const bool HAS_SECOND_LOOP = {_bool(any(len(arrays[struct]) > LOOP for struct in layout.looked_up))};",
+        f"const bool HAS_SECOND_LOOP = {_bool(has_more)};",
     ]
     if reads:
         parts.append(f"layout(std140) uniform {READ} {{ vec4 read_rows[{MOST_READ}]; }};")

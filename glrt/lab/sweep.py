@@ -95,7 +95,7 @@ class Lab:
     ) -> Iterator[Renderer]:
         """Open a renderer with the tier of `glrt render`; its default is independent samples."""
         wanted = {"sampler": "independent", **settings}
-        renderer = Renderer(scene, context=self.context, tier="baked", variant=variant, **wanted)
+        renderer = Renderer(scene, context=self.context, tier="complete", variant=variant, **wanted)
         try:
             yield renderer
             if self.rendered is not None and renderer.samples:

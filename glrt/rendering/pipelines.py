@@ -21,12 +21,14 @@ from glrt.gpu.struct_arrays import (
 )
 from glrt.packing.shapes import NUMBERED, PLACES
 from glrt.packing.texel_texture import BITS, WIDTH
+from glrt.plan.facts import MOST_NEAR
 from glrt.rendering.passes import RADIANCE, RenderPass, Resolved
 
 # "baked" writes the shapes into the kernel's text, so that each edit of them compiles, and each
 # motion of the camera; "placed" writes all of them but their places, which it reads; "generic"
-# reads the shapes. Materials are never written: a colour is to change without compiling.
-Tier = Literal["generic", "placed", "baked"]
+# reads the shapes. "complete" writes lamps, too: each edit of a light compiles. Materials are never
+# written: it takes no less time, and a colour is to change without compiling.
+Tier = Literal["generic", "placed", "baked", "complete"]
 Fast = Literal["placed", "baked"]
 TIERS: tuple[Tier, ...] = get_args(Tier)  # the fastest last
 ENVIRONMENT = "environment_image"  # the texture of the image of the sky
@@ -40,6 +42,7 @@ MOST_CHOSEN = (
     8,
 )  # shapes of a scene, or else of a kind, whose rows are all chosen among constants
 SHAPES = (*NUMBERED, "Target", "Sides")  # arrays that follow from the shapes alone
+LAMPS = ("Light", "Cluster", "Aim")
 
 
 class Variant(NamedTuple):
@@ -132,7 +135,8 @@ def _layout(arrays: Arrays, tier: Tier) -> Layout:
         return Layout()
     if tier == "placed":
         return Layout(NUMBERED, PLACES, _looked_up(arrays))
-    return Layout(SHAPES, looked_up=_looked_up(arrays))
+    is_lit = tier == "complete" and max(len(arrays[struct]) for struct in LAMPS) <= MOST_NEAR
+    return Layout((*SHAPES, *(LAMPS if is_lit else ())), looked_up=_looked_up(arrays))
 
 
 def _looked_up(arrays: Arrays) -> list[str]:

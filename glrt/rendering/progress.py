@@ -77,7 +77,7 @@ class Progress:
 
     @property
     def tier(self) -> Tier:
-        """Tier of the kernel that survives edits: "generic", "placed" or "baked"."""
+        """Tier of the kernel that survives edits: a name of `pipelines.TIERS`."""
         return self._tracer.device_scene.tier
 
     @property
@@ -112,7 +112,7 @@ class Progress:
     @property
     def is_baked(self) -> bool:
         """Whether the running kernel has the shapes written into it."""
-        return self.running_tier == "baked"
+        return self.running_tier in ("baked", "complete")
 
     @property
     def lost_particles(self) -> Losses:

@@ -57,14 +57,14 @@ class Renderer(Progress):
         """Open OpenGL, compile the kernel and allocate the film.
 
         `overrides` are fields of Settings; the rest is in `settings`, or in the scene's `[render]`.
-        The tier "baked" writes up to 32 shapes into the kernel: faster, but each edit of them
-        compiles; "placed" compiles for no edit of their places or the camera's. The pipeline is
-        compute, or fragment for OpenGL 4.1. A `variant` of the kernel is an experiment. `layering`
-        by "groups" lets lamps change without a restart, by "lengths" it lets the bounces be fewer.
-        A `part` (k, n) renders the k-th of n parts of the samples, from k = 1. `apart` selects
-        meshes with trees of their own: moved without a new tree, but slower to trace. `decisions`
-        are stored in recipes: what chose a setting for the user, by its name. `opens_shutter` lets
-        the camera's shutter blur what its animation moves; else the scene stands still. Raises
+        The tier "baked" writes up to 64 shapes into the kernel: faster, but each edit of them
+        compiles; "complete" writes lamps, too. "placed" compiles for no edit of places. The
+        pipeline is compute, or fragment for OpenGL 4.1. A `variant` of the kernel is an experiment.
+        `layering` by "groups" lets lamps change without a restart, by "lengths" it lets the bounces
+        be fewer. A `part` (k, n) renders the k-th of n parts of the samples, from k = 1. `apart`
+        selects meshes with trees of their own: moved without a new tree, but slower to trace.
+        `decisions` are stored in recipes: what chose a setting for the user, by its name. With
+        `opens_shutter` the camera's shutter blurs what its animation moves. Raises
         UsageError for settings that do not go together, ContextError, RenderError, SceneError.
         """
         if not isinstance(scene, Scene):

@@ -4,6 +4,8 @@
 // way, and a table chooses a lamp of the part by flux. The flux is that of the last restart, and no lamp's
 // share of it is 0: light groups can be dimmed and lit later.
 
+const int MOST_SELECTED = 4;  // lamps: more are read one by one
+
 // Weight of a cluster or a part, seen from the origin of `ray`, whose direction is ignored. It is 0 for the
 // lamp that the ray leaves, where this lamp is a cluster of its own.
 float cluster_weight(int index, Ray ray) {
@@ -13,6 +15,28 @@ float cluster_weight(int index, Ray ray) {
     float weight = cluster.probability / max(dot(away, away), cluster.reach2);
     if (IS_AIMED) weight *= share_towards(aim_at(index), -away);
     return weight;
+}
+
+// The weight of a cluster whose number differs between lanes. Few are all weighed, as all lanes read the same row then.
+float weight_of_any(int index, Ray ray) {
+    if (CLUSTERS > MOST_SELECTED) return cluster_weight(index, ray);
+    float weight = 0.0;
+    for (int i = 0; i < CLUSTERS; ++i) {
+        float other = cluster_weight(i, ray);
+        weight = i == index ? other : weight;
+    }
+    return weight;
+}
+
+// A lamp whose number differs between lanes.
+Light any_light(int index) {
+    if (MANY_LIGHTS || CLUSTERS > MOST_SELECTED) return light_at(index);
+    Light light = light_at(0);
+    for (int i = 1; i < CLUSTERS; ++i) {
+        Light other = light_at(i);
+        if (i == index) light = other;
+    }
+    return light;
 }
 
 // Weight of all lamps together.
@@ -75,7 +99,7 @@ float choice_pdf(int index, Ray ray, float total) {
     if (!MANY_LIGHTS) {
         if (CLUSTERS == 1) return 1.0;
         if (IS_AIMED && total == 0.0) return 0.0;  // none can be seen
-        float pdf = cluster_weight(index, ray) / total;
+        float pdf = weight_of_any(index, ray) / total;
         return pdf;
     }
     Light light = light_at(index);

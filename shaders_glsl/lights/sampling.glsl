@@ -32,7 +32,7 @@ bool is_beside(Disk disk, vec3 origin) {
 
 // Whether sampling may find this lamp from the ray's origin.
 bool is_sampled(int index, Ray ray) {
-    Light light = light_at(index);
+    Light light = any_light(index);
     if (light.shape == ray.origin_shape) return false;
     if (is_sphere_lamp(light.shape)) {
         Sphere sphere = sphere_at(light.shape);
@@ -71,24 +71,25 @@ float pdf_disk(Disk disk, Ray ray, float distance) {
 // is the total_weight at the ray's origin.
 float pdf_light(int index, Ray ray, float distance, float lamps) {
     if (!is_sampled(index, ray)) return 0.0;
-    Light light = light_at(index);
+    Light light = any_light(index);
+    float choice = choice_pdf(index, ray, lamps);
     if (is_sphere_lamp(light.shape)) {
         Sphere sphere = sphere_at(light.shape);
         float one_minus_cos = cone_of_sphere(sphere.center - ray.origin, sphere.radius);
-        float pdf = choice_pdf(index, ray, lamps) / (2.0 * PI * one_minus_cos);
+        float pdf = choice / (2.0 * PI * one_minus_cos);
         return pdf;
     }
     if (is_triangle_lamp(light.shape)) {
         LampTriangle triangle = lamp_triangle(light.shape);
-        float pdf = choice_pdf(index, ray, lamps) * pdf_triangle(triangle, ray, distance);
+        float pdf = choice * pdf_triangle(triangle, ray, distance);
         return pdf;
     }
     if (is_disk_lamp(light.shape)) {
-        float pdf = choice_pdf(index, ray, lamps) * pdf_disk(disk_lamp(light.shape), ray, distance);
+        float pdf = choice * pdf_disk(disk_lamp(light.shape), ray, distance);
         return pdf;
     }
     if (is_quad_lamp(light.shape)) {
-        float pdf = choice_pdf(index, ray, lamps) * pdf_quad(quad_lamp(light.shape), ray, distance);
+        float pdf = choice * pdf_quad(quad_lamp(light.shape), ray, distance);
         return pdf;
     }
     return 0.0;
@@ -167,7 +168,7 @@ LampPoint sample_point(Light light, Ray ray, vec2 u) {
 
 // A sample of the lamp with this index; the rest as for `sample_light`.
 LightSample sample_lamp(Ray ray, int index, vec2 u, float lamps) {
-    Light light = light_at(index);
+    Light light = any_light(index);
     LampPoint point = sample_point(light, ray, u);
     if (point.distance == 0.0) return no_light_sample(ray);
     ray.direction = point.direction;

@@ -64,7 +64,7 @@ class Bench:
         self._reference = reference
         self._live = {it.name: it.hysteresis for it in variants if it.hysteresis is not None}
         self._renderers = {
-            variant.name: Renderer(scene, variant.settings, context, tier="baked")
+            variant.name: Renderer(scene, variant.settings, context, tier="complete")
             for variant in variants
         }
         for renderer in self._renderers.values():

@@ -38,7 +38,7 @@ class Rays(NamedTuple):
 
 def rays_of(scene: Scene, settings: Settings, context: Context) -> Rays:
     """Count the rays of a scene, on average over the whole frame."""
-    counter = Renderer(scene, settings, context, tier="baked", variant=COUNTING)
+    counter = Renderer(scene, settings, context, tier="complete", variant=COUNTING)
     try:
         return _counted(counter)
     finally:

@@ -208,7 +208,7 @@ def _small(settings: Settings, pixels: int) -> Settings:
 
 
 def _picture(scene: Scene, settings: Settings, context: Context, pixels: int) -> Image:
-    renderer = Renderer(scene, _small(settings, pixels), context, tier="baked")
+    renderer = Renderer(scene, _small(settings, pixels), context, tier="complete")
     try:
         return renderer.render().image()
     finally:

@@ -175,7 +175,7 @@ class Trial:
     @contextmanager
     def _opened(self, settings: Settings) -> Iterator[Renderer]:
         self.check(None)
-        renderer = Renderer(self.scene, settings, self.context, tier="baked")
+        renderer = Renderer(self.scene, settings, self.context, tier="complete")
         try:
             yield renderer
         finally:

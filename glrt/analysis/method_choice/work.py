@@ -46,7 +46,7 @@ def counting(scene: Scene, settings: Settings, context: Context) -> Iterator[Ren
     strips = STRIPS if is_sampled and not needs.quads_by_area else 0
     lookup = LOOKUP * (1 + METHODS[settings.method].gathers)
     variant = counting_variant(search + SURFACE + choice + strips, search, lookup)
-    counter = Renderer(scene, settings, context, tier="baked", variant=variant)
+    counter = Renderer(scene, settings, context, tier="complete", variant=variant)
     try:
         yield counter
     finally:

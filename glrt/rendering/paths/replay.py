@@ -176,7 +176,7 @@ def path_replay(
     scene: Scene,
     settings: Settings,
     context: Context | Choice = "auto",
-    tier: Tier = "baked",
+    tier: Tier = "complete",
     apart: Apart = "repeated",
 ) -> Iterator[tuple[PathReplay, Recipe]]:
     """Open a replay of a scene, and yield it with the recipe of what it traces.
@@ -236,7 +236,7 @@ def pixel_paths(
     pixel: Pixel,
     wanted: Selection = ALL,
     context: Context | Choice = "auto",
-    tier: Tier = "baked",
+    tier: Tier = "complete",
 ) -> PixelPaths:
     """The radiance of all samples of a pixel, and the paths of some of them."""
     check_selection(pixel, wanted, settings)
