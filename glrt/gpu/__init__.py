@@ -15,6 +15,7 @@ Modules, each importing only what stands above it:
 - raster_kernel: a program that draws vertices into a depth buffer
 - programs: compiled programs that users of a context share
 - context: routes to an OpenGL context: EGL, OSMesa, a hidden window
+- constant_arrays: GLSL of arrays that are constants, and of loops over them
 - struct_arrays: how a kernel reads an array: constants, uniform block or texture
 - depth_texture: a depth buffer of floats
 - canvas: textures that are drawn on

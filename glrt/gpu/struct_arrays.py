@@ -17,6 +17,17 @@ from typing import Any, NamedTuple
 import moderngl
 import numpy as np
 
+from glrt.gpu.constant_arrays import (
+    LOOP,
+    Reads,
+    constants,
+    count_of,
+    getter_of,
+    nothing,
+    one_loop,
+    two_loops,
+)
+
 Array = np.ndarray[Any, Any]
 Arrays = Mapping[str, Array]  # rows, by the name of their struct
 
@@ -25,7 +36,6 @@ MOST_UNIFORM_BYTES = 65_536  # llvmpipe's limit; quads are 1.05 times as fast as
 LEAST_ROWS = 32
 READ = "ReadRows"  # the block of the fields of constant structs that are read
 MOST_READ = 64  # its rows
-LOOP = 32  # rows of constants in one loop: Mesa unrolls loops over whole arrays of up to 32 rows
 MOST_DOUBLED = 64  # rows of a texture that grows to powers of two; beyond, in smaller steps
 
 _BITS = 9
@@ -78,17 +88,17 @@ def scene_arrays(
     for struct, rows in arrays.items():
         name, is_constant = struct.lower(), struct in layout.constant
         if not len(rows):
-            parts += [_nothing(struct, rows, f"{name}_at"), _count(name, "0")]
+            parts += [nothing(struct, rows, f"{name}_at"), count_of(name, "0")]
         elif layout.is_read(struct):
             in_block = is_uniform(struct, rows, uniform_bytes)
             parts.append(_uniform(struct, rows) if in_block else _texture(struct, rows))
         else:
-            parts.append(_constants(struct, rows, f"{name}_at", f"{name}_rows", reads.get(struct)))
+            parts.append(constants(struct, rows, f"{name}_at", f"{name}_rows", reads.get(struct)))
         if len(rows) and (is_constant or struct in (*numbered, *COUNTED)):
-            parts.append(_count(name, str(len(rows)) if is_constant else f"frame.{name}_count"))
+            parts.append(count_of(name, str(len(rows)) if is_constant else f"frame.{name}_count"))
         if struct in numbered:
-            halves = struct in layout.looked_up
-            parts += _halves(struct, rows, reads.get(struct)) if halves else _whole(struct, rows)
+            has_two = struct in layout.looked_up
+            parts += two_loops(struct, rows, reads.get(struct)) if has_two else one_loop(struct)
     return "\n".join([*parts, *_numbering(arrays, numbered)]) + "\n"
 
 
@@ -166,7 +176,7 @@ def write_rows(texture: moderngl.Texture, rows: Array, count: int) -> None:
 
 def _numbering(arrays: Arrays, numbered: Sequence[str]) -> list[str]:
     first = "int first_{}() {{ return {}; }}".format
-    counts = [f"{struct.lower()}_count()" for struct in numbered]
+    counts = [f"{struct.lower()}count_of()" for struct in numbered]
     lines = [
         first(struct.lower(), " + ".join(counts[:place]) or "0")
         for place, struct in enumerate(numbered)
@@ -176,56 +186,13 @@ def _numbering(arrays: Arrays, numbered: Sequence[str]) -> list[str]:
         limit = f"number < first_{after.lower()}()" if after and struct not in last else "true"
         lines.append(f"bool up_to_{struct.lower()}(int number) {{ return {limit}; }}")
     for name in map(str.lower, numbered):
-        limits = f"number >= first_{name}() && number < first_{name}() + {name}_count()"
+        limits = f"number >= first_{name}() && number < first_{name}() + {name}count_of()"
         lines.append(f"bool is_{name}(int number) {{ return {limits}; }}")
     return lines
 
 
-def _whole(struct: str, rows: Array) -> list[str]:
-    """Return the functions of a loop over all rows; the second loop has none."""
-    name = struct.lower()
-    return [
-        f"{struct} {name}_of_first(int index) {{ return {name}_at(index); }}",
-        f"{struct} {name}_of_second(int index) {{ return {name}_at(index); }}",
-        _count(f"{name}_first", f"{name}_count()"),
-        _count(f"{name}_second", "0"),
-    ]
-
-
-def _halves(struct: str, rows: Array, reads: "Reads | None") -> list[str]:
-    """Return the functions of two loops over constants."""
-    name, parts = struct.lower(), []
-    for half, some in (("first", rows[:LOOP]), ("second", rows[LOOP:])):
-        getter = f"{name}_of_{half}"
-        read = reads and Reads(reads.field, reads.first + LOOP * (half == "second"))
-        text = _constants(struct, some, getter, f"{name}_{half}_rows", read) if len(some) else ""
-        parts += [text or _nothing(struct, rows, getter), _count(f"{name}_{half}", str(len(some)))]
-    return parts
-
-
 def _bool(value: object) -> str:
     return "true" if value else "false"
-
-
-def _count(name: str, value: str) -> str:
-    return f"int {name}_count() {{ return {value}; }}"
-
-
-def _getter(struct: str, getter: str, array: str) -> str:
-    return f"{struct} {getter}(int index) {{ return {array}[index]; }}"
-
-
-def _nothing(struct: str, rows: Array, getter: str) -> str:
-    """Return the function of an empty array, which GLSL does not have: it gives zeros."""
-    zero = _constructor(struct, np.zeros(1, rows.dtype)[0])
-    return f"{struct} {getter}(int index) {{ return {zero}; }}"
-
-
-class Reads(NamedTuple):
-    """A field of a constant struct that lies in the block READ, and its first row there."""
-
-    field: str
-    first: int
 
 
 def _reads(arrays: Arrays, layout: Layout) -> dict[str, Reads]:
@@ -237,31 +204,11 @@ def _reads(arrays: Arrays, layout: Layout) -> dict[str, Reads]:
     return {struct: Reads(field, first) for (struct, field), first, length in rows if length}
 
 
-def _constants(struct: str, rows: Array, getter: str, array: str, reads: Reads | None) -> str:
-    """Return the GLSL of constants and of the function by which a kernel gets one."""
-    function = _getter(struct, getter, array)
-    if reads:
-        rows = rows.copy()
-        rows[reads.field] = 0
-        function = "\n".join(
-            [
-                f"{struct} {getter}(int index) {{",
-                f"    {struct} row = {array}[index];",
-                f"    row.{reads.field} = read_rows[{reads.first} + index].xyz;",
-                "    return row;",
-                "}",
-            ]
-        )
-    listed = ",\n    ".join(_constructor(struct, row) for row in rows)
-    size = f"[{len(rows)}]"
-    return f"const {struct} {array}{size} = {struct}{size}(\n    {listed});\n{function}"
-
-
 def _uniform(struct: str, rows: Array) -> str:
     name = struct.lower()
     array = f"{struct} {name}_rows[{_capacity(rows)}];"
     block = f"layout(std140) uniform {block_of(struct)} {{ {array} }};"
-    return f"{block}\n{_getter(struct, f'{name}_at', f'{name}_rows')}"
+    return f"{block}\n{getter_of(struct, f'{name}_at', f'{name}_rows')}"
 
 
 def _texture(struct: str, rows: Array) -> str:
@@ -316,17 +263,3 @@ def _field(dtype: np.dtype[Any], offset: int) -> str:
     if base.kind == "i" and count > 1:
         return f"ivec{count}({words})"
     return _CASTS[base.kind].format(words)
-
-
-def _constructor(struct: str, row: Any) -> str:
-    return f"{struct}({', '.join(_literal(row[field]) for field in row.dtype.names)})"
-
-
-def _literal(value: Any) -> str:
-    """Return a scalar or vector in GLSL, exactly: the shortest decimal that rounds to it."""
-    if np.ndim(value):
-        prefix = {"f": "", "i": "i", "u": "u"}[value.dtype.kind]
-        return f"{prefix}vec{len(value)}({', '.join(_literal(part) for part in value)})"
-    if isinstance(value, np.floating):
-        return np.format_float_scientific(value, unique=True, trim="0")
-    return f"{value}u" if isinstance(value, np.unsignedinteger) else str(value)

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from glrt.gpu import struct_arrays
+from glrt.gpu import constant_arrays, struct_arrays
 from glrt.gpu.context import Context
 from glrt.gpu.struct_arrays import FILE, uniform_content
 from glrt.image.sources import load
@@ -62,7 +62,7 @@ def test_arrays_are_constants_uniform_blocks_or_textures() -> None:
     assert "uniform MaterialRows" in baked
     placed = written_for("cornell", "placed")[FILE]
     assert "const Plane plane_rows[5]" in placed
-    assert "uniform ReadRows { vec4 read_rows[32]; };" in placed
+    assert "uniform ReadRows { vec4 read_rows[64]; };" in placed
     assert placed.count("    row.corner = read_rows[") == 1
     assert "usampler2D QuadRows" in written_for("cornell", uniform_bytes=0)[FILE]
     assert not any("buffer" in text for text in (uniform, baked))
@@ -90,9 +90,9 @@ def test_literals_keep_every_bit() -> None:
     values = np.concatenate(
         [words[np.isfinite(words)], np.array([0.0, -0.0, 1e-45, 3.4e38], np.float32)]
     )
-    read_back = np.array([struct_arrays._literal(value) for value in values]).astype(np.float32)
+    read_back = np.array([constant_arrays.literal(value) for value in values]).astype(np.float32)
     assert read_back.tobytes() == values.tobytes()
-    assert all({".", "e"} & set(struct_arrays._literal(value)) for value in values)
+    assert all({".", "e"} & set(constant_arrays.literal(value)) for value in values)
 
 
 def test_uniform_buffer_is_as_large_as_its_block_and_none_is_empty() -> None:
