@@ -176,7 +176,7 @@ def write_rows(texture: moderngl.Texture, rows: Array, count: int) -> None:
 
 def _numbering(arrays: Arrays, numbered: Sequence[str]) -> list[str]:
     first = "int first_{}() {{ return {}; }}".format
-    counts = [f"{struct.lower()}count_of()" for struct in numbered]
+    counts = [f"{struct.lower()}_count()" for struct in numbered]
     lines = [
         first(struct.lower(), " + ".join(counts[:place]) or "0")
         for place, struct in enumerate(numbered)
@@ -186,7 +186,7 @@ def _numbering(arrays: Arrays, numbered: Sequence[str]) -> list[str]:
         limit = f"number < first_{after.lower()}()" if after and struct not in last else "true"
         lines.append(f"bool up_to_{struct.lower()}(int number) {{ return {limit}; }}")
     for name in map(str.lower, numbered):
-        limits = f"number >= first_{name}() && number < first_{name}() + {name}count_of()"
+        limits = f"number >= first_{name}() && number < first_{name}() + {name}_count()"
         lines.append(f"bool is_{name}(int number) {{ return {limits}; }}")
     return lines
 
