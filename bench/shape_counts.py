@@ -23,9 +23,9 @@ from glrt.core.errors import SceneError
 from glrt.core.text import plural
 from glrt.gpu.context import Context, open_context
 from glrt.plan import facts
+from glrt.plan.facts import MOST_BAKED
 from glrt.process.command import peak_bytes
 from glrt.rendering import pipelines
-from glrt.rendering.pipelines import MOST_BAKED
 from glrt.rendering.renderer import Renderer
 from glrt.scene.files.assets import AssetFolder
 from glrt.scene.files.named_meshes import mesh_of_arrays

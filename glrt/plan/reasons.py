@@ -7,7 +7,16 @@ from collections.abc import Callable, Iterable
 
 from glrt.core.text import counted
 from glrt.plan.case import Case
-from glrt.plan.facts import ENDLESS, MESH, MOST_NEAR, REST_FROM, SPHERES_FROM, TREE_FROM, SceneFacts
+from glrt.plan.facts import (
+    ENDLESS,
+    MESH,
+    MOST_BAKED,
+    MOST_NEAR,
+    REST_FROM,
+    SPHERES_FROM,
+    TREE_FROM,
+    SceneFacts,
+)
 from glrt.plan.methods import CLASSIC
 from glrt.scene.shapes.kinds import KINDS
 from glrt.scene.summary import few
@@ -125,7 +134,9 @@ def in_clusters(case: Case) -> str:
 
 def sphere_tree(case: Case) -> str:
     """Return the number of spheres, and from which number on a BVH pays."""
-    return _of(counted(case.facts.shapes["sphere"], "sphere"), SPHERES_FROM)
+    found = case.facts
+    reason = _of(counted(found.shapes["sphere"], "sphere"), SPHERES_FROM)
+    return reason + (_in_windows(found) if found.has_sphere_tree else "")
 
 
 def shape_tree(case: Case) -> str:
@@ -134,7 +145,7 @@ def shape_tree(case: Case) -> str:
     if found.tree_kinds or found.triangles:
         parts = [counted(found.shapes[kind], kind) for kind in found.tree_kinds]
         parts += [counted(found.triangles, "triangle")] if found.triangles else []
-        return f"over {', '.join(parts)}"
+        return f"over {', '.join(parts)}" + (_in_windows(found) if found.tree_kinds else "")
     rest = [kind for kind in KINDS if kind not in (*ENDLESS, MESH)]
     if found.has_sphere_tree:
         count = counted(found.count_of(kind for kind in rest if kind != "sphere"), "other shape")
@@ -271,6 +282,12 @@ def sampler(case: Case) -> str:
 def adaptive(case: Case) -> str:
     """Return whether pixels get samples in proportion to their noise."""
     return f"adaptive {case.settings.adaptive}"
+
+
+def _in_windows(found: SceneFacts) -> str:
+    """Return that renders do without a BVH, if they have few shapes."""
+    is_few = sum(found.shapes.values()) <= MOST_BAKED
+    return "; in the window: glrt render tries up to 64 shapes one by one" if is_few else ""
 
 
 def _of(count: str, least: int) -> str:

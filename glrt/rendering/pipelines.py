@@ -11,7 +11,6 @@ from glrt.gpu.context import Context, Pipeline
 from glrt.gpu.glsl import Source
 from glrt.gpu.program import FragmentKernel, Kernel, Resource
 from glrt.gpu.struct_arrays import (
-    MOST_READ,
     READ,
     Arrays,
     Layout,
@@ -21,7 +20,7 @@ from glrt.gpu.struct_arrays import (
 )
 from glrt.packing.shapes import NUMBERED, PLACES
 from glrt.packing.texel_texture import BITS, WIDTH
-from glrt.plan.facts import MOST_NEAR
+from glrt.plan.facts import MOST_BAKED, MOST_NEAR
 from glrt.rendering.passes import RADIANCE, RenderPass, Resolved
 
 # "baked" writes the shapes into the kernel's text, so that each edit of them compiles, and each
@@ -36,7 +35,6 @@ SKY_TREE = "environment_tree"  # the texture of the tree that samples this image
 RESERVOIRS = "held_reservoirs"  # the texture of what samples keep for later ones
 TEXELS = "map_texels"  # the texture of all images on surfaces
 VOXELS = "grid_voxels"  # the texture of all grids of media
-MOST_BAKED = MOST_READ  # shapes
 MOST_CHOSEN = (
     32,
     8,

@@ -10,8 +10,9 @@ from glrt.gpu.context import Context
 from glrt.gpu.struct_arrays import FILE, uniform_content
 from glrt.image.sources import load
 from glrt.packing.kernel_structs import STRUCTS
+from glrt.plan.facts import MOST_BAKED
 from glrt.rendering import pipelines
-from glrt.rendering.pipelines import MOST_BAKED, Tier
+from glrt.rendering.pipelines import Tier
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.shader_functions import no_rows
 from glrt.scene.scene import Scene

@@ -7,9 +7,10 @@ import pytest
 from glrt.core.errors import RenderError, UsageError
 from glrt.gpu.context import Context
 from glrt.image.image import Image
+from glrt.plan.facts import MOST_BAKED
 from glrt.plan.plan import Layering
 from glrt.rendering import kernel_switch
-from glrt.rendering.pipelines import MOST_BAKED, compiled
+from glrt.rendering.pipelines import compiled
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.schedule import INTERACTIVE
 from glrt.scene.materials.lambertian import Lambertian

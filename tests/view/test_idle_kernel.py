@@ -3,7 +3,8 @@
 import pytest
 
 from glrt.core.errors import RenderError
-from glrt.rendering.pipelines import MOST_BAKED, Fast
+from glrt.plan.facts import MOST_BAKED
+from glrt.rendering.pipelines import Fast
 from glrt.rendering.renderer import Renderer
 from glrt.view.state.compile_ahead import CompileAhead
 from glrt.view.state.idle_kernel import MOST, PAUSES

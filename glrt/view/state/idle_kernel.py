@@ -7,7 +7,8 @@ import time
 from collections.abc import Callable
 
 from glrt.core.errors import RenderError
-from glrt.rendering.pipelines import MOST_BAKED, Fast
+from glrt.plan.facts import MOST_BAKED
+from glrt.rendering.pipelines import Fast
 from glrt.rendering.renderer import Renderer
 from glrt.view.state.compile_ahead import CompileAhead
 
