@@ -23,7 +23,6 @@ from glrt.core.errors import SceneError
 from glrt.core.text import plural
 from glrt.gpu.context import Context, open_context
 from glrt.plan import facts
-from glrt.plan.facts import MOST_BAKED
 from glrt.process.command import peak_bytes
 from glrt.rendering import pipelines
 from glrt.rendering.renderer import Renderer
@@ -123,7 +122,7 @@ def measure(
     for count in counts:
         scene = crowd(count, kinds=kinds, mesh=mesh)
         start = time.perf_counter()
-        tree[count] = _renderer(context, scene, size, tree_from=1)
+        tree[count] = _renderer(context, scene, size, tree_from=1, most_baked=0)
         setup[count] = time.perf_counter() - start
         try:
             baked = constants + 1  # with the floor
@@ -141,9 +140,9 @@ def measure(
 
 
 def _renderer(
-    context: Context, scene: Scene, size: int, tree_from: int, most_baked: int = MOST_BAKED
+    context: Context, scene: Scene, size: int, tree_from: int, most_baked: int
 ) -> Renderer:
-    """A renderer with a tree from `tree_from` shapes on, baked up to `most_baked` of them.
+    """A renderer with a tree from `tree_from` shapes on; up to `most_baked` are constants instead.
 
     Spheres are found by their own, unless other kinds or a mesh are there.
     """
@@ -153,7 +152,7 @@ def _renderer(
         patch.multiple(facts, SPHERES_FROM=own, TREE_FROM=tree_from, REST_FROM=tree_from),
         patch.object(pipelines, "MOST_BAKED", most_baked),
     ):
-        return Renderer(scene, context=context, tier="baked", width=size, height=size)
+        return Renderer(scene, context=context, tier="complete", width=size, height=size)
 
 
 def _seconds(renderer: Renderer) -> float:
