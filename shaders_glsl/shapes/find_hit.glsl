@@ -54,7 +54,9 @@ Hit find_in_loops(Ray ray, Hit hit, int ignored) {
         for (i = 0; i < sphere_first_count(); ++i) hit = with_sphere(ray, sphere_of_first(i), i, hit, ignored);
         note_end(i, sphere_first_count());
         if (HAS_SECOND_LOOP) {
-            for (i = 0; i < sphere_second_count(); ++i) hit = with_sphere(ray, sphere_of_second(i), LOOP + i, hit, ignored);
+            for (i = 0; i < sphere_second_count(); ++i) {
+                hit = with_sphere(ray, sphere_of_second(i), LOOP + i, hit, ignored);
+            }
             note_end(i, sphere_second_count());
         }
     }
@@ -94,11 +96,13 @@ Hit find_in_loops(Ray ray, Hit hit, int ignored) {
         for (i = 0; i < cylinder_first_count(); ++i) hit = with_cylinder(ray, cylinder_of_first(i), i, hit);
         note_end(i, cylinder_first_count());
         if (HAS_SECOND_LOOP) {
-            for (i = 0; i < cylinder_second_count(); ++i) hit = with_cylinder(ray, cylinder_of_second(i), LOOP + i, hit);
+            for (i = 0; i < cylinder_second_count(); ++i) {
+                hit = with_cylinder(ray, cylinder_of_second(i), LOOP + i, hit);
+            }
             note_end(i, cylinder_second_count());
         }
     }
-    return hit;
+    return hit;  // of all kinds
 }
 
 // The nearest shape nearer than `limit`, apart from the shape `ignored`. If two shapes are at the same distance, it is

@@ -14,7 +14,9 @@ def unnamed(kinds: Sequence[str], in_leaves: Collection[str], shaders: Path) -> 
     alone. `in_leaves`: kinds that leaves of the tree hold.
     """
     texts = {name: (shaders / "shapes" / name).read_text() for name in FILES}
-    search = re.search(r"^Hit find_hit\(.*?^}", texts["find_hit.glsl"], re.MULTILINE | re.DOTALL)
+    search = re.search(
+        r"^Hit find_in_loops\(.*?^}", texts["find_hit.glsl"], re.MULTILINE | re.DOTALL
+    )
     assert search
     asked = {name.lower() for name in re.findall(r"\bHAS_([A-Z]+)\b", search[0])}
     loops = asked & set(re.findall(r"\b(\w+)_distance\(ray", texts["find_hit.glsl"]))
