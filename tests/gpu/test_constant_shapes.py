@@ -44,16 +44,28 @@ def lit(scene: Scene) -> Scene:
     return scene.model_copy(update={"objects": (*scene.objects[:-4], ball, scene.objects[-1])})
 
 
-@pytest.mark.slow_cases("*placed*", "*baked*", "sphere-complete", "[dbc]*-complete")
 @pytest.mark.parametrize("tier", TIERS[1:])
-@pytest.mark.parametrize("kinds", [KINDS, *((kind,) for kind in KINDS)], ids="+".join)
-def test_constants_give_the_bits_of_trees(
-    context: Context, kinds: tuple[str, ...], tier: Tier
-) -> None:
-    scene = lit(crowd(MANY, 29, kinds))
+@pytest.mark.slow_cases("placed", "baked")
+def test_constants_give_the_bits_of_trees(context: Context, tier: Tier) -> None:
+    scene = lit(crowd(MANY, 29))
+    assert SceneFacts(scene).tree_kinds
+    assert bits(scene, context, tier) == bits(scene, context, "generic")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("tier", ["placed", "complete"])
+def test_quads_of_two_loops(context: Context, tier: Tier) -> None:
+    scene = lit(crowd(MANY, 29, ("quad",)))
+    assert bits(scene, context, tier) == bits(scene, context, "generic")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", KINDS)
+def test_each_kind_fills_two_loops(context: Context, kind: str) -> None:
+    scene = lit(crowd(MANY, 37, (kind,)))
     found = SceneFacts(scene)
     assert found.has_sphere_tree or found.tree_kinds
-    assert bits(scene, context, tier) == bits(scene, context, "generic")
+    assert bits(scene, context, "complete") == bits(scene, context, "generic")
 
 
 @pytest.mark.slow
@@ -77,8 +89,9 @@ def test_rows_of_a_large_kind_are_constants_in_loops_alone() -> None:
     assert f"const Disk disk_first_rows[{counts['disk']}]" in crowded
     assert "const Plane plane_rows[1]" in crowded
     assert "HAS_SECOND_LOOP = true" in crowded
-    few = text(crowd(30, 29, ("quad",)), "baked")
-    assert "const Quad quad_rows[30]" in few
+    scene = crowd(30, 29, ("quad",))
+    few = text(scene, "baked")
+    assert f"const Quad quad_rows[{SceneFacts(scene).shapes['quad']}]" in few
     assert "QuadRows" not in few
     assert "HAS_SECOND_LOOP = false" in few
 
