@@ -77,7 +77,7 @@ def _ways(scene: Scene, settings: Settings) -> dict[str, Settings]:
 def _efficiencies(
     scene: Scene, ways: dict[str, Settings], samples: int, context: Context
 ) -> dict[str, float]:
-    renderers = {label: Renderer(scene, own, context, "baked") for label, own in ways.items()}
+    renderers = {label: Renderer(scene, own, context, "complete") for label, own in ways.items()}
     seconds = dict.fromkeys(ways, 0.0)
     for target in range(STEP, samples + 1, STEP):
         for label, renderer in renderers.items():

@@ -70,7 +70,7 @@ class Found(NamedTuple):
 def pictures(name: str, by: str, size: int, seeds: int, context: Context) -> Iterator[Image]:
     """Denoised pictures of a scene, by as many seeds."""
     options: dict[str, Any] = {"width": size, "height": size, "samples": SAMPLES, "denoise": by}
-    renderer = Renderer(load(name), None, context, "baked", **options)
+    renderer = Renderer(load(name), None, context, "complete", **options)
     for seed in range(seeds):
         renderer.update(seed=seed)
         yield renderer.render().image()

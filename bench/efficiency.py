@@ -142,7 +142,7 @@ def measure_scene(
 def renderer_of(scene: Scene, way: Way, size: int, context: Context) -> Renderer:
     """A renderer, baked where possible; raises `KeyError` if an edit does not apply."""
     settings = settings_for(scene.render, width=size, height=size, **way.settings)
-    return Renderer(scene, settings, context, "baked", variant=edited(*way.edits))
+    return Renderer(scene, settings, context, "complete", variant=edited(*way.edits))
 
 
 def scene_of(name: str) -> Scene:

@@ -78,7 +78,7 @@ def _stills(series: Series, count: int) -> tuple[float, str]:
     context, seconds = open_context(), 0.0
     for number in range(count):
         still = series.still(number)
-        renderer = Renderer(still.scene, still.settings, context, "baked")
+        renderer = Renderer(still.scene, still.settings, context, "complete")
         start = time.perf_counter()
         renderer.render().image()
         seconds += time.perf_counter() - start

@@ -29,7 +29,7 @@ def main() -> int:
         paths = {"method": asked.method, "roulette": asked.roulette}
         sampler = {"sampler": asked.sampler} if asked.sampler else {}
         settings = settings_for(scene.render, **size, **paths, **sampler)
-        return Renderer(scene, settings, context, "baked")
+        return Renderer(scene, settings, context, "complete")
 
     def render(request: Request) -> tuple[Image, float]:
         ready = renderer(replace(request, samples=1, seed=0, batches=1))

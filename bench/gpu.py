@@ -31,7 +31,7 @@ from glrt.rendering.passes import Resolved
 from glrt.rendering.pipelines import Tier
 
 SCENES = ("cornell", "lamps", "lens", "metals", "sky", "weekend")
-TIERS: tuple[Tier, ...] = ("generic", "baked")
+TIERS: tuple[Tier, ...] = ("generic", "complete")
 PATIENCE = 300.0  # seconds for one combination and scene
 RIGHT = 0.01  # largest difference, relative to the RMS difference between the two seeds
 PROGRAM = (sys.executable, "-m", "bench.gpu_way")

@@ -40,7 +40,7 @@ VARIANTS = (
     Variant("one sample a dispatch", "generic", one_sample_a_dispatch=True),
     Variant("uniform blocks", "generic"),
     Variant("constants without places", "placed"),
-    Variant("constants", "baked"),
+    Variant("constants", "complete"),
 )
 
 

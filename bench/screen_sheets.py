@@ -28,7 +28,7 @@ def aovs(file: Path) -> None:
     names = tuple(it for it in get_args(Aov) if it not in TERMS)
     frame: dict[str, Any] = {"width": 480, "height": 270, "samples": 128}
     context = open_context()
-    renderer = Renderer(load("weekend"), None, context, "baked", aov=names, **frame)
+    renderer = Renderer(load("weekend"), None, context, "complete", aov=names, **frame)
     renderer.render().image()
     shown = [renderer.display(), *(_aov(renderer, name) for name in names)]
     renderer.release()

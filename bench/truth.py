@@ -57,7 +57,7 @@ def truth_of(
     wanted: dict[str, Any] = {"width": size, "height": size, "samples": samples // 2, **settings}
     halves = []
     for seed in (TRUTH_SEED, TRUTH_SEED + 1):
-        renderer = Renderer(load(name), None, context, "baked", seed=seed, **wanted)
+        renderer = Renderer(load(name), None, context, "complete", seed=seed, **wanted)
         halves.append(renderer.render().image().radiance)
         renderer.release()
     if kept:

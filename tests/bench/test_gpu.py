@@ -40,7 +40,7 @@ if way == ("compute", "generic"):
     os.abort()
 if way == ("fragment", "generic"):
     pictures += work["device"] * 1e-3
-if way == ("fragment", "baked"):
+if way == ("fragment", "complete"):
     pictures += 0.125
 found["tier"] = work["tier"]
 if work["scene"] == "hangs":
@@ -62,7 +62,7 @@ def driver(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def work(**changes: Any) -> Work:
-    way: dict[str, Any] = {"route": "auto", "device": 0, "pipeline": "compute", "tier": "baked"}
+    way: dict[str, Any] = {"route": "auto", "device": 0, "pipeline": "compute", "tier": "complete"}
     return Work(**{**way, "scene": "sky", **MUCH, **changes})
 
 
@@ -101,7 +101,7 @@ def test_a_difference_is_relative_to_that_of_the_seeds() -> None:
 def test_the_table_reports_figures_and_errors() -> None:
     rows = [
         Row(work(), FOUND),
-        Row(work(device=1), {**FOUND, "tier": "baked"}, 0.002),
+        Row(work(device=1), {**FOUND, "tier": "complete"}, 0.002),
         Row(work(pipeline="fragment"), {"error": "no such shader"}),
     ]
     _, _, first, near, failed, _, error = table(rows)
@@ -155,9 +155,9 @@ def test_each_way_of_this_machine_is_tried(
     rows = json.loads((tmp_path / "gpu.json").read_text())["rows"]
     assert [(row["pipeline"], row["tier"]) for row in rows] == [
         ("compute", "generic"),
-        ("compute", "baked"),
+        ("compute", "complete"),
         ("fragment", "generic"),
-        ("fragment", "baked"),
+        ("fragment", "complete"),
     ]
     for row in rows:
         assert row["is_right"]

@@ -77,7 +77,7 @@ def test_no_shader_file_says_precise_itself() -> None:
     assert not [str(file) for file in shader_files() if "precise " in read(str(file))]
 
 
-@pytest.mark.parametrize("way", [("generic", 1 << 16), ("generic", 0), ("baked", 1 << 16)])
+@pytest.mark.parametrize("way", [("generic", 1 << 16), ("generic", 0), ("complete", 1 << 16)])
 def test_every_float_that_the_kernel_assigns_is_precise(way: tuple[Tier, int]) -> None:
     text = Source("trace.comp", EVERYTHING, texts=written_for("cornell", *way)).whole.text
     bodies = function_bodies(text)

@@ -49,7 +49,7 @@ def test_constants_uniform_blocks_and_textures_give_the_same_bits(
         assert bits(scene, context, "placed", sampler) == uniform
     monkeypatch.setattr(pipelines, "MOST_BAKED", len(scene.objects))
     if len(scene.objects) <= 100:
-        assert bits(scene, context, "baked", sampler) == uniform
+        assert bits(scene, context, "complete", sampler) == uniform
     monkeypatch.setattr(struct_arrays, "MOST_UNIFORM_BYTES", 0)
     assert bits(scene, context, "generic", sampler) == uniform
 

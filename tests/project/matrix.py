@@ -91,7 +91,7 @@ def draw() -> None:
     pictures: dict[str, Any] = {"renderer": f"{context.renderer}, OpenGL {context.version}"}
     for name in scenes:
         for seed in (0, 1):
-            kind: Any = {"tier": "baked", "pipeline": pipeline, "seed": seed, **SIZE}
+            kind: Any = {"tier": "complete", "pipeline": pipeline, "seed": seed, **SIZE}
             renderer = Renderer(load(name), context=context, **kind)
             image = renderer.render(SAMPLES).image()
             pictures[f"{name} {seed}"] = np.stack([image.radiance, image.stderr])

@@ -20,7 +20,7 @@ from tests.support.system_packages import needs_package
 WAYS: dict[str, tuple[Tier, int]] = {
     "uniform blocks": ("generic", MOST_UNIFORM_BYTES),
     "textures": ("generic", 0),
-    "constants": ("baked", MOST_UNIFORM_BYTES),
+    "constants": ("complete", MOST_UNIFORM_BYTES),
 }
 PIPELINES: tuple[Resolved, ...] = "compute", "fragment"
 WARP = "sampling/warp.glsl"

@@ -103,7 +103,7 @@ def test_the_kernel_of_a_profile(software: Context, usual: Image, name: str) -> 
 
 
 WAYS = [  # a crowd has too many shapes to be baked; some lack a fragment shader
-    *((name, "tier", "baked") for name in RENDERS if name != "crowd"),
+    *((name, "tier", "complete") for name in RENDERS if name != "crowd"),
     *(
         (name, "pipeline", "fragment")
         for name in RENDERS

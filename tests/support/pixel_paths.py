@@ -19,7 +19,7 @@ def replayed(
     scene: Scene,
     pixel: tuple[int, int],
     context: Context,
-    tier: Tier = "baked",
+    tier: Tier = "complete",
     numbers: list[int] | None = None,
     **settings: Any,
 ) -> PixelPaths:
@@ -28,7 +28,7 @@ def replayed(
     return pixel_paths(scene, wanted, pixel, Selection(numbers), context, tier)
 
 
-def camera_picture(scene: Scene, context: Context, tier: Tier = "baked", **settings: Any) -> Any:
+def camera_picture(scene: Scene, context: Context, tier: Tier = "complete", **settings: Any) -> Any:
     """A render, by (x, y) of the full frame, (3,) float32; without particles, if it has some."""
     renderer = Renderer(scene, context=context, tier=tier, **{**SMALL, **settings})
     image = renderer.render().image()
