@@ -62,7 +62,7 @@ def denoised(file: Path) -> None:
     context, found = open_context(), []
     for name in ("cornell", "methods/caustic"):
         options: Any = {"width": 384, "height": 384, "samples": 64, "denoise": "nlm"}
-        renderer = Renderer(load(name), None, context, "baked", **options)
+        renderer = Renderer(load(name), None, context, "complete", **options)
         image = renderer.render().image()
         renderer.release()
         filtered = image.denoised()

@@ -23,7 +23,7 @@ from glrt.image.sources import load
 PROGRAM = (sys.executable, "-m", "bench.load_side")
 WAYS: dict[str, dict[str, Any]] = {
     "thesis": {"method": "naive", "roulette": False, "sampler": "independent", "tier": "generic"},
-    "default": {"tier": "baked"},
+    "default": {"tier": "complete"},
 }
 # The thesis draws one room of spheres and planes: its lamp, its ball of glass (3.4), and a camera
 # with a lens (3.2). It names neither the size of the window nor the share of the CPU.

@@ -26,7 +26,8 @@ TRIES: dict[str, list[dict[str, Any]]] = {  # options of a file: the first that 
 
 def rendered(context: Context, scene: Scene, variant: Variant = PLAIN, **settings: Any) -> Codes:
     """Return a render as its PNG file shows it: denoised, exposed, by its tone curve."""
-    ways: dict[str, Any] = {"tier": "complete", "opens_shutter": True, "variant": variant, **settings}
+    ways: dict[str, Any] = {"tier": "complete", "opens_shutter": True, "variant": variant}
+    ways |= settings
     renderer = Renderer(scene, None, context, **ways)
     try:
         image = renderer.render().image()

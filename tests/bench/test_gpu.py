@@ -106,10 +106,10 @@ def test_the_table_reports_figures_and_errors() -> None:
     ]
     _, _, first, near, failed, _, error = table(rows)
     figures = "0.25 s | 12 ms | 2.5 million samples/s | 100 MiB |"
-    assert first == f"| sky | auto | compute | generic for baked | first | {figures}"
-    assert near == f"| sky | auto 1 | compute | baked | 0.2 % | {figures}"
-    assert failed == "| sky | auto | fragment | baked | fails | | | | |"
-    assert error == "- sky, auto, fragment, baked: no such shader"
+    assert first == f"| sky | auto | compute | generic for complete | first | {figures}"
+    assert near == f"| sky | auto 1 | compute | complete | 0.2 % | {figures}"
+    assert failed == "| sky | auto | fragment | complete | fails | | | | |"
+    assert error == "- sky, auto, fragment, complete: no such shader"
 
 
 def test_a_picture_is_rendered_again_until_the_time_is_spent(context: Context) -> None:
