@@ -20,9 +20,7 @@ from glrt.scene.shapes.mesh import Mesh
 from glrt.scene.values import Radiance
 
 MOST_BAKED = 64  # shapes, planes and meshes included, that a kernel may have as constants
-TREE_FROM = (
-    33  # bounded shapes that a kernel reads: from here on a BVH pays (docs/results/speed.md)
-)
+TREE_FROM = 33  # bounded shapes that a kernel reads: a BVH pays (docs/results/speed.md)
 SPHERES_FROM = 33  # spheres: from here on a BVH of their own is faster
 REST_FROM = 16  # other shapes, where spheres have a BVH; a multiple of it where meshes have one
 MOST_NEAR = 32  # lamps weighed at each point; more are grouped into this many clusters

@@ -35,10 +35,8 @@ SKY_TREE = "environment_tree"  # the texture of the tree that samples this image
 RESERVOIRS = "held_reservoirs"  # the texture of what samples keep for later ones
 TEXELS = "map_texels"  # the texture of all images on surfaces
 VOXELS = "grid_voxels"  # the texture of all grids of media
-MOST_CHOSEN = (
-    32,
-    8,
-)  # shapes of a scene, or else of a kind, whose rows are all chosen among constants
+FEW = 32  # shapes of a scene: each row that is looked up is a constant
+FEW_OF_KIND = 8  # the same in a scene of more shapes
 SHAPES = (*NUMBERED, "Target", "Sides")  # arrays that follow from the shapes alone
 LAMPS = ("Light", "Cluster", "Aim")
 
@@ -142,9 +140,9 @@ def _looked_up(arrays: Arrays) -> list[str]:
 
     To choose among many constants takes long to compile, and to read few rows takes long to run.
     """
-    in_all, of_kind = MOST_CHOSEN
-    is_few = _shapes(arrays) <= in_all
-    return [struct for struct in NUMBERED if not is_few and len(arrays[struct]) > of_kind]
+    if _shapes(arrays) <= FEW:
+        return []
+    return [struct for struct in NUMBERED if len(arrays[struct]) > FEW_OF_KIND]
 
 
 def places(gl: moderngl.Context, arrays: Arrays) -> dict[str, Resource]:
