@@ -77,7 +77,7 @@ def test_a_denoised_variant_is_judged_by_what_it_shows(context: Context) -> None
     bench.release()
     plain, denoised = runs["none"], runs["nlm"]
     assert [look.samples for look in denoised.looks] == [4, 8, 16, 32]
-    renderer = Renderer(scene, named["nlm"], context, tier="baked", seed=1)
+    renderer = Renderer(scene, named["nlm"], context, tier="complete", seed=1)
     shown = renderer.render(32).image().denoised()
     renderer.release()
     assert shown.noise is not None

@@ -60,7 +60,7 @@ def test_shadow_rays_are_weighed_apart_from_others(context: Context) -> None:
     means = []
     for weights in ((1, 0), (0, 1)):
         variant = counting_variant(*weights)
-        counter = Renderer(scene, settings, context, tier="baked", variant=variant)
+        counter = Renderer(scene, settings, context, tier="complete", variant=variant)
         means.append(float(counter.render(SAMPLES).image().radiance.mean(dtype=float)))
         counter.release()
     assert means[0] == 1.0, "direct light alone, and no mirror"

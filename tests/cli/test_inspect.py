@@ -25,7 +25,7 @@ def test_the_printed_kernel_is_the_one_that_renders_and_compiles(
 ) -> None:
     told = glrt("inspect", "lamps", "--kernel", "--pipeline", pipeline, "--context", context.route)
     assert (told.returncode, told.stderr) == (0, "")
-    renderer = Renderer(load("lamps"), context=context, tier="baked", pipeline=pipeline)
+    renderer = Renderer(load("lamps"), context=context, tier="complete", pipeline=pipeline)
     vertex, printed = renderer.shaders[0].live.text, told.stdout
     assert printed == renderer.shaders[-1].live.text
     renderer.release()

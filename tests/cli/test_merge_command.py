@@ -244,7 +244,7 @@ def test_an_interrupted_part_is_finished_as_the_message_says(
     assert main(["render", *words, "--part", "2/2", "-o", names[1]]) == 0
     whole = Image.load(names[1])
     assert whole.recipe
-    begun = Renderer(load("cornell"), whole.recipe.settings, tier="baked", part=(2, 2))
+    begun = Renderer(load("cornell"), whole.recipe.settings, tier="complete", part=(2, 2))
     begun.render(5).image().save(names[1])
     begun.release()
     assert main(["merge", *names, "-o", str(tmp_path / "whole.exr")]) == 2

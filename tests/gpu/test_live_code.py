@@ -210,7 +210,7 @@ def test_pictures_have_the_same_bits(
         if is_whole:
             monkeypatch.setattr(Source, "live", property(lambda source: source.whole))
         fresh = Context(context.gl, context.route, context.device)  # knows no program
-        renderer = Renderer(scene, settings, fresh, "baked")
+        renderer = Renderer(scene, settings, fresh, "complete")
         pictures.append(renderer.render().image().radiance)
         renderer.release()
     assert pictures[0].any()

@@ -37,7 +37,7 @@ def test_nothing_but_rounding_makes_no_variance() -> None:
 def part(context: Context, scene: Scene, number: int, samples: int, **more: Any) -> Image:
     """The k-th half of so many samples, rendered alone."""
     alone = Renderer(
-        scene, None, context, "baked", part=(number, 2), samples=samples, **OPTIONS, **more
+        scene, None, context, "complete", part=(number, 2), samples=samples, **OPTIONS, **more
     )
     try:
         return alone.render().image()
@@ -63,7 +63,7 @@ def test_each_half_is_a_render_of_its_samples(
 ) -> None:
     """Particles too, whose film adds its variance."""
     with_both = Renderer(
-        SCENE, None, context, "baked", samples=samples, caustics=caustics, **OPTIONS
+        SCENE, None, context, "complete", samples=samples, caustics=caustics, **OPTIONS
     )
     first = with_both.render(samples // 2).image()
     halves = halves_of(first, with_both.render().image())
@@ -74,7 +74,7 @@ def test_each_half_is_a_render_of_its_samples(
 
 
 def test_halves_need_not_be_equal(context: Context) -> None:
-    with_both = Renderer(SCENE, None, context, "baked", samples=150, **OPTIONS)
+    with_both = Renderer(SCENE, None, context, "complete", samples=150, **OPTIONS)
     first = with_both.render(32).image()
     whole = with_both.render().image()
     with_both.release()

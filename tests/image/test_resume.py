@@ -28,7 +28,7 @@ SIZE = {"width": 24, "height": 16}
 
 def taken(context: Context, samples: int, **settings: Any) -> Renderer:
     """A renderer with so many samples."""
-    options = {"context": context, "tier": "baked", **SIZE, **settings}
+    options = {"context": context, "tier": "complete", **SIZE, **settings}
     return Renderer(ROOM, samples=64, **options).render(samples)
 
 

@@ -232,7 +232,7 @@ def test_a_kernel_has_nothing_that_its_model_cannot_see(method: str) -> None:
 @pytest.mark.parametrize("method", MODELS)
 def test_models_give_the_same_bits_in_every_tier(context: Context, method: str) -> None:
     scene = everything()
-    tiers: tuple[Tier, ...] = ("generic", "baked")
+    tiers: tuple[Tier, ...] = ("generic", "complete")
     pictures = [
         rendered(scene, context, 4, method=method, width=32, height=32, tier=tier).radiance
         for tier in tiers

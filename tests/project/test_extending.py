@@ -107,7 +107,7 @@ expected = math.pi * (1 - 0.25) / edge**2
 pictures = {
     (tier, pipeline): glrt.Renderer(scene, tier=tier, pipeline=pipeline, width=64, height=64,
                                     bounces=0, samples=64).render().image().radiance
-    for tier in ("baked", "generic") for pipeline in ("compute", "fragment")
+    for tier in ("complete", "generic") for pipeline in ("compute", "fragment")
 }
 first, *others = pictures.values()
 assert all((first == other).all() for other in others)

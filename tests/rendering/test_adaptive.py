@@ -26,7 +26,7 @@ FLOOR = 64
 
 
 def opened(context: Context, **settings: Any) -> Renderer:
-    return Renderer(ROOM, context=context, tier="baked", **{**SIZE, **settings})
+    return Renderer(ROOM, context=context, tier="complete", **{**SIZE, **settings})
 
 
 def taken(context: Context, samples: int, **settings: Any) -> Image:

@@ -67,8 +67,8 @@ def picture(
 
 WAYS: list[tuple[Tier, Resolved]] = [
     ("generic", "fragment"),
-    ("baked", "compute"),
-    ("baked", "fragment"),
+    ("complete", "compute"),
+    ("complete", "fragment"),
 ]
 
 
@@ -94,7 +94,7 @@ def test_other_scenes_have_the_same_aovs_by_every_way(
     ours = {"heap": heap(), "everything": everything()}
     scene = ours.get(name) or load(name)
     by_compute = picture(scene, context, sampler=sampler)
-    by_way = picture(scene, context, "baked", way, sampler=sampler)
+    by_way = picture(scene, context, "complete", way, sampler=sampler)
     assert same_aovs(by_way.aovs, by_compute.aovs)
     assert same(by_way, by_compute)
 

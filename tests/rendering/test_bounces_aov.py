@@ -102,7 +102,7 @@ def test_it_is_the_mean_of_what_recorded_paths_tell(context: Context) -> None:
         assert found.value[pixel[1], pixel[0]] == pytest.approx(np.mean(counts), rel=1e-5)
 
 
-WAYS: list[tuple[Tier, Resolved]] = [("generic", "fragment"), ("baked", "compute")]
+WAYS: list[tuple[Tier, Resolved]] = [("generic", "fragment"), ("complete", "compute")]
 
 
 @pytest.mark.slow_cases("generic-fragment-sobol")

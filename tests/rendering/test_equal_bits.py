@@ -114,10 +114,10 @@ WAYS = [  # a crowd has too many shapes to be baked; some lack a fragment shader
 
 
 @pytest.mark.slow_cases(
-    *("by constants-tier-baked", "by constants-pipeline-fragment"),
-    *("drawn-tier-baked", "drawn-pipeline-fragment"),
-    *("hazy by *", "by nets-tier-baked", "by shared numbers-*"),
-    *("by own counts-tier-baked", "caustics-tier-baked", "shared places-tier-baked"),
+    *("by constants-tier-complete", "by constants-pipeline-fragment"),
+    *("drawn-tier-complete", "drawn-pipeline-fragment"),
+    *("hazy by *", "by nets-tier-complete", "by shared numbers-*"),
+    *("by own counts-tier-complete", "caustics-tier-complete", "shared places-tier-complete"),
     *("hazy-pipeline-fragment", "mapped-pipeline-fragment"),
 )
 @pytest.mark.parametrize(("name", "key", "way"), WAYS)

@@ -22,7 +22,7 @@ SETTINGS = Settings(denoise="nlm", **SIZE)
 
 
 def renderer(context: Context, **settings: Any) -> Renderer:
-    return Renderer(load("cornell"), None, context, "baked", **{**SIZE, **settings})
+    return Renderer(load("cornell"), None, context, "complete", **{**SIZE, **settings})
 
 
 def rendered(context: Context, **settings: Any) -> Image:

@@ -46,7 +46,7 @@ def test_fragment_and_compute_give_the_same_bits(name: str, sampler: str, contex
     """This holds on the software drivers; a GPU may round otherwise."""
     if not context.is_software:
         pytest.skip("bits are promised on software drivers alone")
-    tiers: tuple[Tier, ...] = ("baked", "generic") if name == "cornell" else ("baked",)
+    tiers: tuple[Tier, ...] = ("complete", "generic") if name == "cornell" else ("complete",)
     for tier in tiers:
         by_compute, by_fragment = (
             bits(load(name), context, pipeline, tier=tier, sampler=sampler)
@@ -176,7 +176,7 @@ def test_a_driver_without_compute_renders_the_same_picture(
     assert told.returncode == 0, told.stderr
     assert json.loads(told.stdout)["pipeline"] == "fragment"
     old = Image.load(tmp_path / "a.exr")
-    renderer = Renderer(load("cornell"), context=context, tier="baked", width=32, height=24)
+    renderer = Renderer(load("cornell"), context=context, tier="complete", width=32, height=24)
     assert same_bits(old.radiance, renderer.render(5).image().radiance)
     renderer.release()
 

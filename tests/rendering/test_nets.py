@@ -32,14 +32,14 @@ SIZE: dict[str, Any] = {"width": 24, "height": 16, "sampler": "net"}
 
 def taken(context: Context, samples: int, **settings: Any) -> Image:
     """A picture of so many samples."""
-    renderer = Renderer(ROOM, context=context, tier="baked", **{**SIZE, **settings})
+    renderer = Renderer(ROOM, context=context, tier="complete", **{**SIZE, **settings})
     image = renderer.render(samples).image()
     renderer.release()
     return image
 
 
 def test_samples_may_come_in_portions_of_any_size(context: Context) -> None:
-    renderer = Renderer(ROOM, context=context, tier="baked", **SIZE)
+    renderer = Renderer(ROOM, context=context, tier="complete", **SIZE)
     for samples in (1, 2, 8, 3, 21, 5):
         renderer.step(samples)
     pieces = renderer.image()
@@ -55,7 +55,7 @@ def test_a_picture_that_is_rendered_on_is_the_file_of_one_render(
 ) -> None:
     taken(context, first).save(tmp_path / "first.exr")
     begun = Image.load(tmp_path / "first.exr")
-    renderer = Renderer(ROOM, context=context, tier="baked", **SIZE).resume(begun)
+    renderer = Renderer(ROOM, context=context, tier="complete", **SIZE).resume(begun)
     assert same_bits(renderer.image().stderr, begun.stderr)
     renderer.render(39).image().save(tmp_path / "on.exr")
     renderer.release()
@@ -78,7 +78,7 @@ def test_parts_continue_each_others_nets(context: Context, tmp_path: Path) -> No
 
 
 def taken_part(context: Context, part: tuple[int, int]) -> Image:
-    renderer = Renderer(ROOM, context=context, tier="baked", part=part, samples=61, **SIZE)
+    renderer = Renderer(ROOM, context=context, tier="complete", part=part, samples=61, **SIZE)
     image = renderer.render().image()
     renderer.release()
     return image

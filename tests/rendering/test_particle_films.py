@@ -26,7 +26,7 @@ SIZE: dict[str, Any] = {"width": 16, "height": 12, **OPTIONS}
 
 
 def renderer(context: Context, **more: Any) -> Renderer:
-    return Renderer(SCENE, None, context, "baked", **{"samples": 72, **SIZE}, **more)
+    return Renderer(SCENE, None, context, "complete", **{"samples": 72, **SIZE}, **more)
 
 
 def parts_of(context: Context) -> list[Image]:

@@ -140,7 +140,7 @@ def test_dispatches_may_be_of_any_size(context: Context, monkeypatch: pytest.Mon
 
 def test_shapes_written_into_the_kernel_change_nothing(context: Context) -> None:
     images = []
-    for tier in ("generic", "baked"):
+    for tier in ("generic", "complete"):
         renderer = Renderer(CLOSED, None, context, tier, width=16, height=16, samples=32, **ON)
         images.append(renderer.render().image())
         renderer.release()

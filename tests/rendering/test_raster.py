@@ -106,7 +106,7 @@ def test_scenes_that_come_with_glrt_are_rastered(context: Context, name: str) ->
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("tier", ["generic", "baked"])
+@pytest.mark.parametrize("tier", ["generic", "complete"])
 @pytest.mark.parametrize("scene", [crowd(), mapped()], ids=["crowd", "mapped"])
 def test_trees_repeated_meshes_holes_and_hidden_backs_are_rastered(
     context: Context, scene: Scene, tier: Tier

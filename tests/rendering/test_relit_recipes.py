@@ -22,7 +22,7 @@ def rendered_again(picture: Path, context: Context, **options: Any) -> Image:
     scene, settings = load_recipe(picture)
     assert settings
     settings = settings_for(settings, **options)
-    renderer = open_renderer(scene, settings, recipe_of(picture), context, tier="baked")
+    renderer = open_renderer(scene, settings, recipe_of(picture), context, tier="complete")
     try:
         return renderer.render().image()
     finally:

@@ -29,7 +29,7 @@ SIZE: dict[str, Any] = {"width": 40, "height": 36, "sampler": "shared", "bounces
 
 def taken(context: Context, samples: int, **settings: Any) -> Image:
     """A picture of so many samples."""
-    renderer = Renderer(ROOM, context=context, tier="baked", **{**SIZE, **settings})
+    renderer = Renderer(ROOM, context=context, tier="complete", **{**SIZE, **settings})
     image = renderer.render(samples).image()
     renderer.release()
     return image
@@ -42,7 +42,7 @@ def picture(context: Context) -> Image:
 
 
 def test_samples_may_come_in_portions_of_any_size(context: Context, picture: Image) -> None:
-    renderer = Renderer(ROOM, context=context, tier="baked", **SIZE)
+    renderer = Renderer(ROOM, context=context, tier="complete", **SIZE)
     for samples in (1, 16, 33, 206, 300, 44):
         renderer.step(samples)
     pieces = renderer.image()
@@ -57,7 +57,7 @@ def test_a_picture_that_is_rendered_on_is_that_of_one_render(
 ) -> None:
     taken(context, first).save(tmp_path / "first.exr")
     begun = Image.load(tmp_path / "first.exr")
-    renderer = Renderer(ROOM, context=context, tier="baked", **SIZE).resume(begun)
+    renderer = Renderer(ROOM, context=context, tier="complete", **SIZE).resume(begun)
     assert same(renderer.image(), begun)
     renderer.render(600).image().save(tmp_path / "on.exr")
     renderer.release()
@@ -74,7 +74,7 @@ def test_parts_are_merged_to_the_picture(context: Context, picture: Image) -> No
 
 
 def taken_part(context: Context, part: tuple[int, int]) -> Image:
-    renderer = Renderer(ROOM, context=context, tier="baked", part=part, samples=600, **SIZE)
+    renderer = Renderer(ROOM, context=context, tier="complete", part=part, samples=600, **SIZE)
     image = renderer.render().image()
     renderer.release()
     return image
@@ -88,7 +88,7 @@ def test_particles_are_a_film_of_their_own(context: Context, tmp_path: Path) -> 
 
     def rendered(samples: int, **more: Any) -> Image:
         own = {**ways, "samples": 600, **more}
-        renderer = Renderer(scene, context=context, tier="baked", **own)
+        renderer = Renderer(scene, context=context, tier="complete", **own)
         image = renderer.render(samples).image()
         renderer.release()
         return image
@@ -101,7 +101,7 @@ def test_particles_are_a_film_of_their_own(context: Context, tmp_path: Path) -> 
     assert same_bits(whole.particles.mean, plain.particles.mean)
     assert same_bits(whole.particles.variance, plain.particles.variance)
     rendered(300).save(tmp_path / "first.exr")
-    renderer = Renderer(scene, context=context, tier="baked", **ways)
+    renderer = Renderer(scene, context=context, tier="complete", **ways)
     found = renderer.resume(Image.load(tmp_path / "first.exr")).render(600).image()
     renderer.release()
     assert same(found, whole)

@@ -79,7 +79,7 @@ def program_of(context: Context, scene: str, texts: dict[str, str], **settings: 
     unseen = f"{read(COMMENTED)}// {uuid.uuid4()}\n"
     variant = Variant(texts={COMMENTED: unseen, **texts})
     renderer = Renderer(
-        load(scene), context=context, tier="baked", variant=variant, **size, **settings
+        load(scene), context=context, tier="complete", variant=variant, **size, **settings
     )
     gl, length, kind = library(), ctypes.c_int(), ctypes.c_uint()
     with context.gl:

@@ -192,7 +192,7 @@ def test_parts_resumed_and_repeated_renders_have_the_bits_of_one(context: Contex
     assert whole.recipe
     assert whole.recipe.scene == frame
     assert whole.recipe.tier == "generic"
-    assert same(exposed(whole.recipe.scene, context, 48, tier="baked"), whole)
+    assert same(exposed(whole.recipe.scene, context, 48, tier="complete"), whole)
 
 
 def test_edits_cost_what_they_cost_a_still(context: Context) -> None:

@@ -129,7 +129,7 @@ class Judge:
             return work_per_sample(counter, settings.bounces, lambda _renderer: True)
 
     def _renderer(self, settings: Settings) -> Renderer:
-        return Renderer(self.scene, settings, self.context, tier="baked")
+        return Renderer(self.scene, settings, self.context, tier="complete")
 
 
 def random_scene(seed: int) -> Scene:

@@ -56,7 +56,7 @@ def part_of_a_merged_picture() -> None:
 def resume_a_part() -> None:
     whole = parts([])[1]
     size = {"width": 16, "height": 12, "bounces": 4, "samples": 60}
-    renderer = Renderer(load("cornell"), part=(2, 3), tier="baked", **size)  # type: ignore[arg-type]
+    renderer = Renderer(load("cornell"), part=(2, 3), tier="complete", **size)  # type: ignore[arg-type]
     renderer.render(5).image().save("begun.exr")
     renderer.release()
     assert same(rendered("--resume", "begun.exr"), whole)

@@ -58,6 +58,7 @@ LAMPS = {
     "quad-whitted",
     "disk-phong",
     "disk-whitted",
+    *("disk-naive", "disk-nee", "quad-naive", "quad-nee"),
 )
 @pytest.mark.slow_cases("mesh-naive")
 @pytest.mark.slow_cases("mesh-nee", "mesh-mis", "mesh-whitted", "mesh-cook")
@@ -73,7 +74,7 @@ def test_inside_the_inner_angle_a_spot_is_the_lamp_to_the_bit(
     assert method == "naive" or image.radiance.mean() > 0
 
 
-@pytest.mark.slow_cases("mesh-naive")
+@pytest.mark.slow_cases("mesh-naive", "disk-naive", "disk-nee", "quad-naive", "quad-nee")
 @pytest.mark.slow_cases("mesh-nee", "mesh-mis", "mesh-whitted", "mesh-cook")
 @pytest.mark.parametrize("method", [*METHODS, *MODELS])
 @pytest.mark.parametrize("kind", LAMPS)

@@ -178,9 +178,9 @@ def test_meshes_have_the_same_bits_everywhere(context: Context) -> None:
     if not context.is_software:
         pytest.skip("bits are promised on software drivers alone")
     expected = rendered(things(), context, 4, **SMALL)
-    fragment = rendered(things(), context, 4, pipeline="fragment", tier="baked", **SMALL)
+    fragment = rendered(things(), context, 4, pipeline="fragment", tier="complete", **SMALL)
     assert same(fragment, expected)
-    assert same(rendered(things(), context, 4, tier="baked", **SMALL), expected)
+    assert same(rendered(things(), context, 4, tier="complete", **SMALL), expected)
     if context.route == "egl":
         needs_osmesa()
     other = open_context("osmesa" if context.route == "egl" else "egl")

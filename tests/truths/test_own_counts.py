@@ -21,7 +21,7 @@ TRUTH = 256 * RENDERS  # samples of a pixel
 
 def opened(case: Case, context: Context, **settings: Any) -> Renderer:
     ways = {"method": case.method, "bounces": case.bounces, "width": SIDE, "height": SIDE}
-    return Renderer(case.scene, context=context, tier="baked", **{**ways, **settings})
+    return Renderer(case.scene, context=context, tier="complete", **{**ways, **settings})
 
 
 @pytest.fixture(scope="module")

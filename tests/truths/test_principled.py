@@ -142,7 +142,7 @@ def test_all_ways_and_sizes_show_the_same_bits(context: Context) -> None:
     def picture(**way: Any) -> bytes:
         return rendered(room(), context, 4, **way).radiance.tobytes()
 
-    assert len({picture(), picture(pipeline="fragment"), picture(tier="baked")}) == 1
+    assert len({picture(), picture(pipeline="fragment"), picture(tier="complete")}) == 1
 
 
 @pytest.mark.slow

@@ -159,7 +159,7 @@ def test_color_and_intensity_are_factors(context: Context) -> None:
 
 def test_both_pipelines_and_tiers_show_the_same_bits(context: Context) -> None:
     scene = under(random_sky(32, 16), FLOOR, sphere([0, 0.3, 0], 0.3, "mirror"), camera=ABOVE)
-    ways: list[dict[str, Any]] = [{}, {"pipeline": "fragment"}, {"tier": "baked"}]
+    ways: list[dict[str, Any]] = [{}, {"pipeline": "fragment"}, {"tier": "complete"}]
     pictures = {
         rendered(scene, context, 16, width=16, height=16, **way).radiance.tobytes() for way in ways
     }

@@ -158,7 +158,7 @@ def test_sampling_the_sun_takes_its_noise_away(context: Context) -> None:
 
 def test_all_ways_show_the_same_bits(context: Context) -> None:
     scene = under(sun_sky(), FLOOR, sphere([0, 0.3, 0], 0.3, "m"), camera=ABOVE)
-    ways: list[dict[str, Any]] = [{}, {"pipeline": "fragment"}, {"tier": "baked"}]
+    ways: list[dict[str, Any]] = [{}, {"pipeline": "fragment"}, {"tier": "complete"}]
     found = {rendered(scene, context, 16, **SMALL, **way).radiance.tobytes() for way in ways}
     assert len(found) == 1
 

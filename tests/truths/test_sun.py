@@ -147,7 +147,7 @@ def test_all_ways_and_sizes_show_the_same_bits(context: Context) -> None:
         scene = sunny(FLOOR, ball, camera=camera, elevation=35.0, azimuth=20.0)
         return rendered(scene, context, 16, **way).radiance.tobytes()
 
-    ways: list[dict[str, Any]] = [{}, {"pipeline": "fragment"}, {"tier": "baked"}]
+    ways: list[dict[str, Any]] = [{}, {"pipeline": "fragment"}, {"tier": "complete"}]
     ways += [{"scale": 2.0**10}, {"scale": 2.0**-10}]
     assert len({picture(**way) for way in ways}) == 1
 

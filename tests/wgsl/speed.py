@@ -68,7 +68,7 @@ def _frames(tracer: Tracer) -> Run:
 
 def _kernels(context: Context, scene: Scene, settings: Settings) -> Mapping[str, Run]:
     generic = Renderer(scene, settings, context)
-    baked = Renderer(scene, settings, context, tier="baked")
+    baked = Renderer(scene, settings, context, tier="complete")
 
     def step_by_step(samples: int) -> None:
         generic.restart()

@@ -24,7 +24,7 @@ ON: dict[str, Any] = {"caustics": "on", "linked": 0.0, "samples": 20}
 
 def films(scene: Scene, context: Context, **settings: Any) -> Any:
     """The two films of a render at PIXEL."""
-    renderer = Renderer(scene, context=context, tier="baked", width=16, height=16, **settings)
+    renderer = Renderer(scene, context=context, tier="complete", width=16, height=16, **settings)
     image = renderer.render().image()
     renderer.release()
     assert image.particles
