@@ -93,4 +93,4 @@ def test_the_loop_is_in_constants_up_to_as_many_balls_as_are_asked_for(
 
     monkeypatch.setattr(shape_counts, "_seconds", noted)
     measure(context, [39, 40], size=8, rounds=2, constants=39)
-    assert tiers == 2 * ["generic", "generic", "baked", "generic"]  # by tree, then one by one
+    assert tiers == 2 * ["generic", "generic", "complete", "generic"]  # by tree, then one by one
