@@ -99,11 +99,14 @@ def _started(
 
 
 def measure(
-    both: tuple[Side, Side], scene: str, size: int, method: str, rounds: int, seconds: float
+    both: tuple[Side, Side], scene: str, rounds: int, seconds: float, **settings: Any
 ) -> tuple[Row, str]:
-    """Measure one scene in interleaved runs of about `seconds`; also return the renderer's name."""
-    settings = {"scene": str(find(scene).resolve()), "size": size, "method": method}
-    opened = [side.ask("open", **settings) for side in both]
+    """Measure one scene in interleaved runs of about `seconds`; also return the renderer's name.
+
+    `settings` are what `bench.against_side` opens the scene with.
+    """
+    path = str(find(scene).resolve())
+    opened = [side.ask("open", scene=path, **settings) for side in both]
     samples = samples_for(both, seconds)
     runs = [_round(both, number, samples) for number in range(rounds)]
     closed = [side.ask("close") for side in both]
@@ -184,7 +187,7 @@ def _print(parsed: argparse.Namespace) -> int:
     rows, renderer = [row for row, _ in found], found[0][1]
     threads = f", LP_NUM_THREADS={parsed.threads}" if parsed.threads else ""
     size, run = f"{parsed.size} x {parsed.size} pixels", f"about {parsed.seconds:g} s"
-    work = f"{size}, {parsed.method}, {parsed.rounds} rounds of {run}"
+    work = f"{size}, {parsed.method}, {parsed.tier} kernels, {parsed.rounds} rounds of {run}"
     place = machine(renderer) + threads
     print(f"{place}, {work}\n{versions}\n")
     print("\n".join(table(rows)))
@@ -198,11 +201,11 @@ def _print(parsed: argparse.Namespace) -> int:
 
 def _measured(parsed: argparse.Namespace, commit: str) -> list[tuple[Row, str]]:
     found = []
+    settings = {name: getattr(parsed, name) for name in ("size", "method", "tier")}
     with sides(commit, parsed.threads) as both:
         for scene in parsed.scenes:
             print(f"{scene} ...", file=sys.stderr)
-            one = measure(both, scene, parsed.size, parsed.method, parsed.rounds, parsed.seconds)
-            found.append(one)
+            found.append(measure(both, scene, parsed.rounds, parsed.seconds, **settings))
     return found
 
 
@@ -218,6 +221,8 @@ def _parser() -> argparse.ArgumentParser:
     add("commit", metavar="COMMIT", help="a hash, a branch or a tag")
     add("--scenes", nargs="+", metavar="NAME", default=SCENES)
     add("--method", choices=get_args(Method), default="mis")
+    told = "kernels of glrt render, or of the window while shapes are edited (default: fastest)"
+    add("--tier", choices=("fastest", "generic"), default="fastest", help=told)
     add_rounds(parser, size=256, rounds=30, least_rounds=LEAST_ROUNDS)
     add("--seconds", type=float, default=1.0, metavar="S", help="time of a run (default: 1)")
     add("--threads", type=int, metavar="N", help="LP_NUM_THREADS of both (default: unchanged)")

@@ -1,8 +1,8 @@
 """One side of `bench.against`: a process that renders with the glrt of one checkout.
 
 It is run by path, with PYTHONPATH set to that checkout, which may be much older than this file.
-Therefore it imports only the public names of glrt, and nothing of bench. Requests and answers are
-lines of JSON, as in `bench.processes`.
+Therefore it imports nothing of bench, and of glrt only public names and the list of tiers.
+Requests and answers are lines of JSON, as in `bench.processes`.
 """
 
 import hashlib
@@ -24,7 +24,9 @@ class Side:
         """Open a renderer for a scene, with a context of its own."""
         settings = {"width": settings["size"], "height": settings["size"], **settings}
         del settings["size"]
-        self._renderer = glrt.Renderer(glrt.load(scene), tier=fastest_tier(), **settings)
+        if settings["tier"] == "fastest":
+            settings["tier"] = fastest_tier()
+        self._renderer = glrt.Renderer(glrt.load(scene), **settings)
         seconds: Any = getattr(self._renderer, "seconds", None)  # older ones have no table of them
         compiled = seconds["compile"] if seconds else getattr(self._renderer, "compile_seconds", 0)
         return {
@@ -47,10 +49,12 @@ class Side:
 
 
 def fastest_tier() -> Any:
-    """The tier that `glrt render` opens: the last one, which is "baked" in older checkouts."""
-    from glrt.rendering import pipelines  # not a public name
-
-    return getattr(pipelines, "TIERS", ("baked",))[-1]
+    """The tier that `glrt render` opens: the last one of the list, which old checkouts lack."""
+    try:
+        from glrt.rendering.pipelines import TIERS
+    except ImportError:
+        return "baked"
+    return TIERS[-1]
 
 
 def peak_bytes() -> int:

@@ -286,8 +286,8 @@ def adaptive(case: Case) -> str:
 
 def _in_windows(found: SceneFacts) -> str:
     """Return that renders do without a BVH, if they have few shapes."""
-    is_few = sum(found.shapes.values()) <= MOST_BAKED
-    return "; in the window: glrt render tries up to 64 shapes one by one" if is_few else ""
+    told = f"; in the window: glrt render tries up to {MOST_BAKED} shapes one by one"
+    return told if sum(found.shapes.values()) <= MOST_BAKED else ""
 
 
 def _of(count: str, least: int) -> str:

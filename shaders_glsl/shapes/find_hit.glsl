@@ -6,8 +6,8 @@ const bool MAY_LOSE = HAS_SPHERE_TREE || HAS_TREE || HAS_MESH || HAS_HOLE || HAS
 
 const bool SPHERES_BY_TREE = HAS_SPHERE_TREE && !SHAPES_ARE_CONSTANT;
 
-// The nearer of a hit and that of the shape i of its kind. Other kinds come after the spheres, so that only hits among
-// them may be at the same distance.
+// The nearer one of a hit and that of shape i of its kind. Shapes are tried in the order of their numbers: of two at the
+// same distance, the first stays.
 
 Hit with_sphere(Ray ray, Sphere sphere, int i, Hit hit, int ignored) {
     float t = sphere_distance(ray, sphere, i);
@@ -106,8 +106,7 @@ Hit find_in_loops(Ray ray, Hit hit, int ignored) {
 }
 
 // The nearest shape nearer than `limit`, apart from the shape `ignored`. If two shapes are at the same distance, it is
-// the one with the lower number, or the one that comes first by shapes/coincident.glsl. With `any`, it is the first
-// that is found.
+// the one with the lower number, or the one that comes first by shapes/coincident.glsl. With `any`, it is any of them.
 Hit find_hit(Ray ray, float limit, int ignored, bool any) {
     Hit hit = Hit(limit, NO_SHAPE);
     if (HAS_COINCIDENT) ray = clear_of(ray);

@@ -78,7 +78,7 @@ def row(**changes: Any) -> Row:
 def test_sides_take_turns_with_equal_seeds_and_samples() -> None:
     asked: list[tuple[str, int, int]] = []
     both = Told("this", 0.001, asked), Told("other", 0.002, asked)
-    found, renderer = measure(both, "sky", 8, "mis", rounds=6, seconds=0.5)
+    found, renderer = measure(both, "sky", 6, 0.5, size=8, method="mis", tier="fastest")
     assert renderer == "Painter"
     assert found.samples == 250, "by the slower side"
     assert found.these == pytest.approx([0.25] * 6)
@@ -153,13 +153,13 @@ def test_a_side_renders_what_it_is_asked(tmp_path: Path) -> None:
     try:
         side = Side("this", process)
         assert side.glrt == ROOT / "glrt" / "__init__.py"
-        opened = side.ask("open", scene="sky", size=8, method="mis")
+        opened = side.ask("open", scene="sky", size=8, method="mis", tier="fastest")
         assert opened["compile_seconds"] > 0
         hashes = [side.ask("render", samples=4, seed=seed)["sha256"] for seed in (1, 2, 1)]
         assert hashes[0] == hashes[2] != hashes[1]
         assert side.ask("close")["peak_bytes"] > 10 << 20
         with pytest.raises(RenderError, match=r"^this: SceneError: Unknown scene 'ski'"):
-            side.ask("open", scene="ski", size=8, method="mis")
+            side.ask("open", scene="ski", size=8, method="mis", tier="fastest")
     finally:
         process.close()
 
