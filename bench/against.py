@@ -1,17 +1,19 @@
 """Measure whether this checkout is slower than another commit, in interleaved renders.
 
-Each side is a process that imports glrt from its own files, compiles once per scene with empty
-caches, and renders on request; both use the same seeds. A ratio is the time of this checkout over
-that of the other in the same round, until the picture is read back; `bench.ratios` describes the
-intervals. The exit code is 1 if this checkout is slower over all scenes together, else 0; one in
-twenty intervals of single scenes does not contain the true ratio.
+Each side is a process that imports glrt from its own files and renders on request; both use the
+same seeds. It compiles once per scene with empty caches. Each round starts both processes again, as
+equal programs differ by 2 % from one start to the next, and no interval over the rounds of one
+start contains that. A ratio is the time of this checkout over that of the other in the same round,
+until the picture is read back; `bench.ratios` describes the intervals. The exit code is 1 if this
+checkout is slower over all scenes together, else 0; one in twenty intervals of single scenes does
+not contain the true ratio.
 """
 
 import argparse
 import json
 import sys
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import asdict, dataclass
 from itertools import count
@@ -30,16 +32,34 @@ from glrt.settings import MAX_SAMPLES, Method
 SCENES = ("cornell", "lamps", "lens", "metals", "sky", "weekend")
 PROGRAM = Path(__file__).with_name("against_side.py")
 TRIAL_SEEDS = 1 << 31  # the first seed of trials; those of rounds start at 1
+WARM_UP = 4  # a new process first renders one WARM_UP-th of the samples of a run
 LEAST_TRIAL = 1 / 2  # least time of a trial, relative to that of a run
 
 
 class Side:
     """The process of one checkout."""
 
-    def __init__(self, name: str, process: Process) -> None:
-        """Read where the started `process` imports glrt from."""
-        self.name, self._process = name, process
-        self.glrt = Path(self._named(process.answer)["glrt"])
+    def __init__(self, name: str, start: Callable[[], Process]) -> None:
+        """Start the process, and read where it imports glrt from."""
+        self.name, self._start = name, start
+        self._begin()
+
+    def restart(self) -> None:
+        """End the process and start a new one, with the same caches of drivers."""
+        self.end()
+        self._begin()
+
+    def _begin(self) -> None:
+        self._process = self._start()
+        try:
+            self.glrt = Path(self._named(self._process.answer)["glrt"])
+        except RenderError:
+            self.end()
+            raise
+
+    def end(self) -> None:
+        """End the process."""
+        self._process.close()
 
     def ask(self, do: str, **words: Any) -> dict[str, Any]:
         """Send a request and return the answer; RenderError names the side that failed."""
@@ -63,7 +83,7 @@ class Row:
     these: list[float]  # seconds, one per round
     others: list[float]
     compile_seconds: tuple[float, float]
-    peak_bytes: tuple[int, int]  # peak memory of the processes up to now
+    peak_bytes: tuple[int, int]  # peak memory of the processes of the last round
     equal: bool  # whether all pictures have the same bits
 
     @property
@@ -90,9 +110,9 @@ def _started(
     if threads:
         environment["LP_NUM_THREADS"] = str(threads)
     # -P: modules next to the program must not shadow those of the standard library.
-    process = Process([sys.executable, "-P", str(PROGRAM)], folder / "log", environment)
-    stack.callback(process.close)
-    side = Side(name, process)
+    command = [sys.executable, "-P", str(PROGRAM)]
+    side = Side(name, lambda: Process(command, folder / "log", environment))
+    stack.callback(side.end)
     if not side.glrt.is_relative_to(checkout):
         raise RenderError(f"{name}: it imports {side.glrt}, which is not in {checkout}.")
     return side
@@ -105,10 +125,10 @@ def measure(
 
     `settings` are what `bench.against_side` opens the scene with.
     """
-    path = str(find(scene).resolve())
-    opened = [side.ask("open", scene=path, **settings) for side in both]
+    settings = {"scene": str(find(scene).resolve()), **settings}
+    opened = [side.ask("open", **settings) for side in both]
     samples = samples_for(both, seconds)
-    runs = [_round(both, number, samples) for number in range(rounds)]
+    runs = [_round(both, number, samples, settings) for number in range(rounds)]
     closed = [side.ask("close") for side in both]
     row = Row(
         scene=scene,
@@ -122,10 +142,16 @@ def measure(
     return row, opened[0]["renderer"]
 
 
-def _round(both: tuple[Side, Side], number: int, samples: int) -> tuple[Any, Any]:
-    """One run of each side; which one is first alternates between rounds."""
-    this, other = both if number % 2 == 0 else both[::-1]
-    first, second = (side.ask("render", samples=samples, seed=1 + number) for side in (this, other))
+def _round(
+    both: tuple[Side, Side], number: int, samples: int, settings: Mapping[str, Any]
+) -> tuple[Any, Any]:
+    """One run of each side in a new process; which one is first alternates between rounds."""
+    order = both if number % 2 == 0 else both[::-1]
+    for side in order:
+        side.restart()
+        side.ask("open", **settings)
+        side.ask("render", samples=max(1, samples // WARM_UP), seed=TRIAL_SEEDS)
+    first, second = (side.ask("render", samples=samples, seed=1 + number) for side in order)
     return (first, second) if number % 2 == 0 else (second, first)
 
 
@@ -191,7 +217,9 @@ def _print(parsed: argparse.Namespace) -> int:
     place = machine(renderer) + threads
     print(f"{place}, {work}\n{versions}\n")
     print("\n".join(table(rows)))
-    peaks = [f"{peak / 2**20:.0f} MiB" for peak in rows[-1].peak_bytes]
+    peaks = [
+        f"{max(peaks) / 2**20:.0f} MiB" for peaks in zip(*(r.peak_bytes for r in rows), strict=True)
+    ]
     verdict = overall(rows).verdict
     print(f"\npeak memory: this {peaks[0]}, other {peaks[1]}\n{verdict}")
     if parsed.json:

@@ -13,7 +13,17 @@ from typing import Any
 import pytest
 
 from bench import against
-from bench.against import PROGRAM, Row, Side, main, measure, overall, samples_for, table
+from bench.against import (
+    PROGRAM,
+    TRIAL_SEEDS,
+    Row,
+    Side,
+    main,
+    measure,
+    overall,
+    samples_for,
+    table,
+)
 from bench.checkouts import commit_of, exported
 from bench.processes import ROOT, Process, environment_of
 from bench.ratios import LEAST_ROUNDS
@@ -48,6 +58,10 @@ class Told(Side):
 
     def __init__(self, name: str, cost: float, asked: list[tuple[str, int, int]]) -> None:
         self.name, self._cost, self._asked = name, cost, asked
+        self.starts = 1
+
+    def restart(self) -> None:
+        self.starts += 1
 
     def ask(self, do: str, **words: Any) -> dict[str, Any]:
         answers: dict[str, Callable[[], dict[str, Any]]] = {
@@ -84,7 +98,16 @@ def test_sides_take_turns_with_equal_seeds_and_samples() -> None:
     assert found.these == pytest.approx([0.25] * 6)
     assert found.others == pytest.approx([0.5] * 6)
     assert found.equal
-    assert asked[-4:] == [("this", 250, 5), ("other", 250, 5), ("other", 250, 6), ("this", 250, 6)]
+    runs = [run for run in asked if run[2] <= 6]
+    assert runs[-4:] == [("this", 250, 5), ("other", 250, 5), ("other", 250, 6), ("this", 250, 6)]
+    assert asked[-4:-2] == [("other", 62, TRIAL_SEEDS), ("this", 62, TRIAL_SEEDS)], "to warm up"
+
+
+def test_each_round_has_processes_of_its_own() -> None:
+    """Equal programs differ by 2 % from one start to the next."""
+    both = Told("this", 0.001, []), Told("other", 0.002, [])
+    measure(both, "sky", 6, 0.5, size=8, method="mis", tier="fastest")
+    assert [side.starts for side in both] == [7, 7], "one to compile, one for each round"
 
 
 def test_trials_have_seeds_that_no_round_has() -> None:
@@ -147,11 +170,9 @@ def test_the_checkout_is_compared_with_its_own_commit(capsys: pytest.CaptureFixt
 
 @pytest.mark.slow
 def test_a_side_renders_what_it_is_asked(tmp_path: Path) -> None:
-    process = Process(
-        [sys.executable, "-P", str(PROGRAM)], tmp_path / "log", environment_of(ROOT, tmp_path)
-    )
+    command, environment = [sys.executable, "-P", str(PROGRAM)], environment_of(ROOT, tmp_path)
+    side = Side("this", lambda: Process(command, tmp_path / "log", environment))
     try:
-        side = Side("this", process)
         assert side.glrt == ROOT / "glrt" / "__init__.py"
         opened = side.ask("open", scene="sky", size=8, method="mis", tier="fastest")
         assert opened["compile_seconds"] > 0
@@ -160,8 +181,11 @@ def test_a_side_renders_what_it_is_asked(tmp_path: Path) -> None:
         assert side.ask("close")["peak_bytes"] > 10 << 20
         with pytest.raises(RenderError, match=r"^this: SceneError: Unknown scene 'ski'"):
             side.ask("open", scene="ski", size=8, method="mis", tier="fastest")
+        side.restart()
+        with pytest.raises(RenderError, match=r"^this: AttributeError"):
+            side.ask("render", samples=4, seed=1)  # the new process has opened nothing
     finally:
-        process.close()
+        side.end()
 
 
 def test_a_commit_is_there_for_a_while(repository: Path) -> None:
