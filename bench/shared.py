@@ -1,12 +1,12 @@
-"""Gain of random numbers that pixels share (--sampler shared) over those of their own (sobol).
+"""Gain of a sampler, by default of numbers that pixels share (--sampler shared), over `sobol`.
 
 For each scene, pictures by both samplers are rendered in turns. The columns are: the squared error
-of `sobol` over that of `shared` at equal samples, from the spread over seeds; the time of `sobol`
-over that of `shared`, which includes finding its weights (medians); the product of both, which is
-the gain in equal time; the error that pictures by `shared` estimate, over the true one, with the
-quantiles of 5 and 95 % over seeds; and how far the means of both over all seeds are apart, in
-standard errors, RMS over blocks of 8 x 8 pixels: 1 for equal means. `-o FILE.jpg` writes pictures
-of the first scene.
+of `sobol` over that of the other at equal samples, from the spread over seeds; the time of `sobol`
+over that of the other, which includes finding the weights of `shared` (medians); the product of
+both, which is the gain in equal time; the error that pictures by the other estimate, over the true
+one, with the quantiles of 5 and 95 % over seeds; and how far the means of both over all seeds are
+apart, in standard errors, RMS over blocks of 8 x 8 pixels: 1 for equal means. `-o FILE.jpg` writes
+pictures of the first scene.
 """
 
 import argparse
@@ -33,7 +33,8 @@ SCENES = ("cornell", "sky", "metals", "weekend", "methods/diffuse", "mesh")
 QUANTILES = (0.05, 0.95)
 BLOCK = 8  # pixels a side, of means
 OTHER_SEEDS = 1 << 20  # samplers must not share numbers
-SAMPLERS: tuple[Sampler, ...] = ("sobol", "shared")
+BASE: Sampler = "sobol"
+OTHERS = tuple(it for it in get_args(Sampler) if it != BASE)
 
 Array = NDArray[np.float64]
 
@@ -41,9 +42,9 @@ Array = NDArray[np.float64]
 class Gain(NamedTuple):
     """The figures of a scene."""
 
-    variance: float  # squared error of sobol over that of shared, at equal samples
-    speed: float  # time of sobol over that of shared
-    told: float  # estimated over true error of shared, root mean square over seeds
+    variance: float  # squared error of sobol over that of the other, at equal samples
+    speed: float  # time of sobol over that of the other
+    told: float  # estimated over true error of the other, root mean square over seeds
     ends: tuple[float, float]  # QUANTILES of that over seeds
     apart: float  # RMS over blocks of how far the means are apart, in standard errors
 
@@ -60,11 +61,12 @@ def measure(
     """The figures of a scene, and its pictures of the first seed."""
     size: dict[str, Any] = {"width": asked.size, "height": asked.size, "caustics": asked.caustics}
     scene = scene_of(name)
+    samplers: tuple[Sampler, ...] = (BASE, asked.sampler)
     opened = {
-        it: Renderer(scene, context=context, tier="complete", sampler=it, **size) for it in SAMPLERS
+        it: Renderer(scene, context=context, tier="complete", sampler=it, **size) for it in samplers
     }
-    images: dict[str, list[Image]] = {it: [] for it in SAMPLERS}
-    seconds: dict[str, list[float]] = {it: [] for it in SAMPLERS}
+    images: dict[str, list[Image]] = {it: [] for it in samplers}
+    seconds: dict[str, list[float]] = {it: [] for it in samplers}
     try:
         for seed in range(asked.rounds):
             for number, (sampler, renderer) in enumerate(opened.items()):
@@ -75,27 +77,27 @@ def measure(
     finally:
         for renderer in opened.values():
             renderer.release()
-    plain, shared = (images[it] for it in SAMPLERS)
-    medians = [float(np.median(seconds[it])) for it in SAMPLERS]
-    return judged(plain, shared, medians[0] / medians[1]), [plain[0].radiance, shared[0].radiance]
+    plain, other = (images[it] for it in samplers)
+    medians = [float(np.median(seconds[it])) for it in samplers]
+    return judged(plain, other, medians[0] / medians[1]), [plain[0].radiance, other[0].radiance]
 
 
-def judged(plain: list[Image], shared: list[Image], speed: float) -> Gain:
+def judged(plain: list[Image], other: list[Image], speed: float) -> Gain:
     """The figures of pictures by several seeds."""
-    means = [np.array([it.radiance for it in images], float) for images in (plain, shared)]
+    means = [np.array([it.radiance for it in images], float) for images in (plain, other)]
     level = np.square(means[0].mean(axis=0)) + DARK * means[0].mean() ** 2
     base, true = (float((it.var(axis=0, ddof=1) / level).mean()) for it in means)
-    told = np.array([(np.square(it.stderr, dtype=float) / level).mean() for it in shared])
+    told = np.array([(np.square(it.stderr, dtype=float) / level).mean() for it in other])
     low, high = np.sqrt(np.quantile(told, QUANTILES) / true)
     ends = float(low), float(high)
     return Gain(base / true, speed, float(np.sqrt(told.mean() / true)), ends, _apart(*means))
 
 
-def _apart(plain: Array, shared: Array) -> float:
+def _apart(plain: Array, other: Array) -> float:
     """How far the means over seeds are apart, (seeds, H, W, 3) each; 0 for small pictures."""
     if min(plain.shape[1:3]) < BLOCK:
         return 0.0
-    blocks = [np.array([block_means(it, BLOCK) for it in some]) for some in (plain, shared)]
+    blocks = [np.array([block_means(it, BLOCK) for it in some]) for some in (plain, other)]
     error = sum(it.var(axis=0, ddof=1) / len(it) for it in blocks)
     apart = blocks[1].mean(axis=0) - blocks[0].mean(axis=0)
     scores = np.square(apart) / np.where(error > 0, error, np.inf)
@@ -111,6 +113,8 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--samples", type=at_least(least), default=least, help=f"default: {least}")
     particles = "particles from lamps (default: off)"
     parser.add_argument("--caustics", choices=get_args(Caustics), default="off", help=particles)
+    told = "the other sampler (default: shared)"
+    parser.add_argument("--sampler", choices=OTHERS, default="shared", help=told)
     parser.add_argument("-o", dest="file", type=Path, metavar="FILE.jpg", help="picture to write")
     return exit_code_of(lambda: _run(parser.parse_args(arguments)))
 
@@ -125,7 +129,8 @@ def _run(parsed: argparse.Namespace) -> None:
         gain, pictures = measure(context, name, parsed)
         print(f"| `{name}` | {gain} |", flush=True)
         if parsed.file and not number:
-            shown = [titled(it, picture) for it, picture in zip(SAMPLERS, pictures, strict=True)]
+            names = BASE, parsed.sampler
+            shown = [titled(it, picture) for it, picture in zip(names, pictures, strict=True)]
             write_sheet(parsed.file, in_rows(shown, len(shown)))
     about = f"{parsed.size} x {parsed.size}, {parsed.samples} samples, {parsed.rounds} seeds"
     print(f"\n{machine(context.renderer)}; {about}")

@@ -107,10 +107,12 @@ def measure_scene(
     seconds: float,
     seed: int = 0,
 ) -> Result:
-    """Render a scene that is called `about`; RenderError if a renderer refuses it."""
+    """Render a scene called `about`; RenderError if a renderer refuses it, or if it is black."""
     own, small = ours(scene, size), min(size, TRIAL_SIZE)
     with started({GLRT: commands[GLRT]}) as peers:
         level = level_of(peers, own, LEVEL_SECONDS)
+        if not level.any():
+            raise RenderError("its picture is black: no light reaches the camera.")
         trial_level = level_of(peers, ours(scene, small), LEVEL_SECONDS)
     rival = best_mitsuba(commands, scene, small, trial_level, TRIAL_SECONDS)
     rival = replace(rival, request=replace(rival.request, width=size, height=size))

@@ -3,6 +3,7 @@
 Modules, each importing only what stands above it:
 
 - options: options that commands share
+- sampler: choice of the sampler where the command line leaves it open
 - request: scene, settings and limits of a command line
 - autosave: files saved now and then
 - reports: reports of pictures

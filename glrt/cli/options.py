@@ -17,14 +17,15 @@ from glrt.settings import RenderSettings, Settings, editable_of
 if TYPE_CHECKING:
     from _typeshed import SupportsWrite
 
-AUTO = "auto"  # value of --method or --caustics: a measurement chooses
-_AUTO = {  # what a measurement chooses, by option
+AUTO = "auto"  # value of --method, --caustics or --sampler: glrt chooses
+_AUTO = {  # what it chooses, by option
     "method": "the cheapest that reaches --error, measured first for some seconds, or for half of "
     "--time",
     "caustics": "as a short pilot finds it cheaper, for long renders of scenes with glass or metal",
+    "sampler": "sobol64 for renders of 512 samples or more, without --time and --error; else sobol",
 }
 _OF_FILES = ("phong",)  # settings without an option: tables of scene files
-_LEFT_OPEN = ("caustics",)  # options whose default is AUTO
+_LEFT_OPEN = ("caustics", "sampler")  # options whose default is AUTO
 SCENE = (
     "a scene file, the name of a scene that comes with glrt, a picture rendered by glrt, or - for "
     "a scene file on standard input"
@@ -183,7 +184,7 @@ def file_rules(arguments: argparse.Namespace) -> FileRules:
 def add_settings(parser: argparse.ArgumentParser, has_auto: bool = False) -> None:
     """Add `--light` and an option for each field of Settings; an option not given sets nothing.
 
-    `has_auto`: `--method` and `--caustics` also accept `auto`, which chooses by a measurement.
+    `has_auto`: `--method`, `--caustics` and `--sampler` also accept `auto`: glrt chooses.
     """
     group = parser.add_argument_group("settings")
     for name in Settings.model_fields:

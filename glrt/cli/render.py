@@ -29,6 +29,7 @@ from glrt.cli.reports.cluster_report import crew_of
 from glrt.cli.reports.render_report import Done, Driver, Finished, report
 from glrt.cli.reports.warnings import warn
 from glrt.cli.request import Order, frame_of, is_in_bands, opened, order
+from glrt.cli.sampler import kept
 from glrt.cluster.clusters import check_installed
 from glrt.core.errors import RenderError, UsageError
 from glrt.core.text import counted
@@ -122,6 +123,8 @@ def _run(arguments: argparse.Namespace) -> int:
     wanted = order(arguments)
     scene, settings = frame_of(wanted.scene, wanted.settings, arguments.frame)
     wanted = replace(wanted, scene=scene, settings=settings)
+    if wanted.begun is not None and not arguments.quiet and (text := kept(arguments, settings)):
+        print(text, file=sys.stderr, flush=True)
     load = time.perf_counter() - start
     arguments.outputs = once(arguments.outputs)
     for output in arguments.outputs:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TypedDict, Unpack
 
 from glrt.cli.options import file_rules, is_automatic, settings_given
+from glrt.cli.sampler import BY_LENGTH, with_sampler
 from glrt.core.errors import UsageError
 from glrt.denoise.filters import with_filter
 from glrt.gpu.context import Choice, Context, Pipeline
@@ -55,7 +56,8 @@ def order(arguments: argparse.Namespace) -> Order:
     ways = ways_wanted(arguments, settings, recipe)
     check(ways - {Way.CLASSIC, Way.PROBES} if Way.AUTO in ways else ways)
     found = Order(scene, settings, Limits(0), decisions=_decisions_kept(arguments, recipe))
-    return _in_parts(arguments, _limited(arguments, found))
+    found = _limited(arguments, found)
+    return _in_parts(arguments, found if recipe else _with_sampler(arguments, found))
 
 
 def frame_of(scene: Scene, settings: Settings, number: int | None) -> tuple[Scene, Settings]:
@@ -80,6 +82,14 @@ def scene_and_settings(arguments: argparse.Namespace) -> tuple[Scene, Settings]:
     scene, recipe = load_recipe(arguments.scene, file_rules(arguments))
     settings = settings_for(recipe or scene.render, **settings_given(arguments))
     return with_lights(scene, dict(arguments.lights)), settings
+
+
+def _with_sampler(arguments: argparse.Namespace, order: Order) -> Order:
+    """Return the order of a new render with the sampler that its length takes."""
+    settings = with_sampler(arguments, order.settings)
+    if settings == order.settings:
+        return order
+    return replace(order, settings=settings, decisions={**order.decisions, "sampler": BY_LENGTH})
 
 
 def _in_parts(arguments: argparse.Namespace, order: Order) -> Order:

@@ -55,20 +55,22 @@ float next_independent(inout Sampler self) {
 
 // The same as next_sobol, for blocks of 64.
 vec2 next_of_64(Sampler self, uint first, bool last) {
-    uint order = pcg_hash(self.block ^ first);
-    uint index = owen_scramble_64(self.point, uvec2(order, pcg_hash(order)));
-    uint x = pcg_hash(~self.block ^ self.dimension);
-    uint more = pcg_hash(x);
-    uint y = pcg_hash(more);
-    uvec2 cell = sobol_cell_64(index, last, uvec4(x, more, y, pcg_hash(y)));
-    return sobol_place_64(cell, pcg_hash(self.seed ^ self.dimension));
+    uint index = sobol_order_64(self.point, pcg_hash(self.block ^ first));
+    uvec2 point = sobol_point_64(index, last);
+    uint random = pcg_hash(~self.block ^ self.dimension);
+    point.x = scrambled(point.x, random, random >> 8u);
+    point.y = scrambled(point.y, random >> 16u, random >> 24u);
+    return sobol_place_64(point, pcg_hash(self.seed ^ self.dimension));
 }
 
 // The same for nets.
 vec2 next_of_net(Sampler self, uint first, bool last) {
-    uint index = net_order(self.point, pcg_hash(self.block ^ first));
+    uvec2 point = net_point(net_order(self.point, pcg_hash(self.block ^ first)), last);
     uint x = pcg_hash(~self.block ^ self.dimension);
-    return net_place(net_point(index, last), uvec2(x, pcg_hash(x)));
+    uint y = pcg_hash(x);
+    point.x = scrambled(point.x, x, x >> 16u);
+    point.y = scrambled(point.y, y, y >> 16u);
+    return net_place(point, pcg_hash(self.seed ^ self.dimension));
 }
 
 // Two successive draws share one shuffled point of four dimensions.

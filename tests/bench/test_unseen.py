@@ -192,6 +192,19 @@ def test_a_seed_of_a_table_renders_its_scene_again(
     assert "seeds from 7 on" in capsys.readouterr().out
 
 
+def test_a_black_scene_is_left_out(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The generator leaves out lamps for which there is no room; 0 / 0 would be no lead."""
+    turns = tmp_path / "turns"
+    peers = {"glrt": painter("Own 1", 1e-3, turns), "Mitsuba": painter("Other 2", 4e-3, turns)}
+    monkeypatch.setattr(unseen, "PEERS", peers)
+    monkeypatch.setattr(unseen, "level_of", lambda *_: np.zeros((8, 8, 3)))
+    assert main(["--scenes", "1", "--seed", "7", "--size", "8"]) == 4
+    told = capsys.readouterr().err
+    assert "seed 7 is left out: its picture is black: no light reaches the camera." in told
+
+
 def test_without_mitsuba_there_is_no_comparison(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

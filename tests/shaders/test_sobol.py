@@ -87,18 +87,37 @@ def test_64_points_fill_four_dimensions_evenly(call_glsl: CallGlsl, skipped: int
     for points in np.concatenate(draws_in_turn[:2], axis=-1):
         assert is_net(points, each=2)
     apart = np.concatenate(draws_in_turn[1:], axis=-1)
-    assert not any(is_net(points, each=2) for points in apart)
+    assert sum(is_net(points, each=2) for points in apart) < 3  # of 20, by chance
 
 
 def test_numbers_are_below_one_down_to_the_last_bit(call_glsl: CallGlsl) -> None:
     bits = np.array([0, 0xFFFFFFFF], np.uint32)
-    for cells, digits in (
-        ("sobol_place(uvec2(bits & 15u), bits)", 20),
-        ("sobol_place_64(uvec2(bits & 63u), bits)", 22),
-    ):
-        found = call_glsl(cells, "vec2", bits=bits)
-        assert found.tolist() == [[0, 0], [1 - 2.0**-digits] * 2]
-        assert found.max() <= BELOW_ONE
+    places = "sobol_place(uvec2(bits & 15u), bits), sobol_place_64(uvec2(bits), bits)"
+    found = call_glsl(f"vec4({places})", "vec4", bits=bits)
+    assert found.tolist() == [[0] * 4, [*[1 - 2.0**-20] * 2, *[1 - 2.0**-22] * 2]]
+    assert found.max() <= BELOW_ONE
+
+
+def test_a_scramble_treats_pairs_as_owens_does(call_glsl: CallGlsl) -> None:
+    """Two numbers with exactly k first digits in common become any two of these, as often each.
+
+    Tried with all scrambles of three digits, which stand in reverse.
+    """
+    seeds, shifts, first, second = map(np.ravel, np.indices((4, 8, 8, 8)))
+    one, other = (
+        call_glsl("scrambled(v, seed, shift) & 7u", "uint", v=v, seed=2 * seeds, shift=shifts)
+        for v in (first, second)
+    )
+    in_common = [
+        np.count_nonzero([(a ^ b) % 2**k == 0 for k in (1, 2, 3)], axis=0)
+        for a, b in ((first, second), (one, other))
+    ]
+    assert np.array_equal(*in_common)
+    for k, pairs in enumerate((8 * 4, 8 * 2, 8)):
+        for a, b in zip(*np.nonzero(in_common[0].reshape(4, 8, 8, 8)[0, 0] == k), strict=True):
+            here = (first == a) & (second == b)
+            found = np.unique(np.stack([one[here], other[here]]), axis=1, return_counts=True)[1]
+            assert found.tolist() == [32 // pairs] * pairs
 
 
 @pytest.mark.parametrize("block", BLOCKS)
