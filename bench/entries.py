@@ -1,4 +1,4 @@
-"""Who takes part in a contest: glrt as `glrt render` is by default, and Mitsuba at its best.
+"""Who takes part in a contest: glrt as `glrt render` makes long renders, and Mitsuba at its best.
 
 Mitsuba renders with its own materials; its `roughconductor` does not correlate the shadowing of
 both directions, as glrt does, so that pictures of very rough metal differ: errors are taken about
@@ -16,6 +16,7 @@ import numpy as np
 from bench.contest import Array, seconds_to
 from bench.peer import Peer, Request
 from bench.turns import Command, Entry, interleaved, samples_for, started
+from glrt.cli.sampler import LONG
 from glrt.samplers import DIVISIONS
 from glrt.scene.scene import Scene
 
@@ -38,9 +39,15 @@ def request(scene: Scene, size: int, **asked: Any) -> Request:
 
 
 def ours(scene: Scene, size: int, sampler: str = "sobol") -> Entry:
-    """glrt with its default method."""
+    """glrt with its default method and without particles."""
     asked = request(scene, size, method="mis", sampler=sampler)
     return Entry(f"glrt mis, {sampler}", GLRT, asked, DIVISIONS[sampler].block)
+
+
+def by_default(scene: Scene, size: int) -> Entry:
+    """glrt as `glrt render` makes long renders: blocks of 64, and particles where they pay."""
+    asked = request(scene, size, method="mis", sampler=LONG, chooses=True)
+    return Entry("glrt", GLRT, asked, DIVISIONS[LONG].block)
 
 
 def alike(scene: Scene, size: int) -> list[Entry]:

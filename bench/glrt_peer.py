@@ -6,11 +6,15 @@ from dataclasses import replace
 from functools import lru_cache
 
 from bench.peer import Request, serve
+from glrt.analysis.method_choice.caustics import may_gain, particles_worth
 from glrt.core.errors import GlrtError
-from glrt.gpu.context import open_context
+from glrt.gpu.context import Context, open_context
 from glrt.image.image import Image
 from glrt.rendering.renderer import Renderer
-from glrt.settings import settings_for
+from glrt.scene.scene import Scene
+from glrt.settings import Settings, settings_for
+
+LENGTH = 1 << 16  # samples per pixel of a long render, for which `--caustics auto` takes all pilots
 
 
 def main() -> int:
@@ -29,6 +33,8 @@ def main() -> int:
         paths = {"method": asked.method, "roulette": asked.roulette}
         sampler = {"sampler": asked.sampler} if asked.sampler else {}
         settings = settings_for(scene.render, **size, **paths, **sampler)
+        if asked.chooses:
+            settings = with_particles(scene, settings, context)
         return Renderer(scene, settings, context, "complete")
 
     def render(request: Request) -> tuple[Image, float]:
@@ -41,6 +47,13 @@ def main() -> int:
 
     serve(str(context.renderer), render)
     return 0
+
+
+def with_particles(scene: Scene, settings: Settings, context: Context) -> Settings:
+    """Settings with the particles that `--caustics auto` chooses for a long render."""
+    long = settings_for(settings, samples=LENGTH)
+    found = particles_worth(scene, long, context) if may_gain(scene, long) else None
+    return found.settings if found else settings
 
 
 if __name__ == "__main__":

@@ -45,6 +45,7 @@ class Request:
     seed: int
     method: str = "mis"
     sampler: str = ""  # by the renderer's own name; default: its usual one
+    chooses: bool = False  # particles may be added, as the renderer finds best for a long render
     roulette: bool = True
     one_sided: bool = False  # quads emit light only on the side of their normal
     finite: bool = False  # planes may be replaced by large polygons

@@ -1,11 +1,12 @@
 """The lead over Mitsuba on scenes that nobody has seen: drawn from a hash of the program itself.
 
 Every change of glrt/ or shaders_glsl/ draws other scenes of `bench.landscapes`, so that none can be
-tuned for. In each scene glrt, by its defaults, and Mitsuba at its best (`bench.entries`) take turns
-with sixteen independent renders of their own; errors are relative RMS, about each renderer's own
-mean. Seconds to 2 % are extrapolated by t^-1/2, and the slope is checked by sixteen renders each of
-a quarter of the samples: scenes where one does not have it are listed apart, and are counted
-in a mean of their own. Exit code 1 if a rate in turns is not that of alone.
+tuned for. In each scene glrt, as `glrt render` makes long renders, and Mitsuba at its best
+(`bench.entries`) take turns with sixteen independent renders of their own. Errors are relative RMS,
+about each renderer's own mean; the time of glrt's pilot does not count. Seconds to 2 % are
+extrapolated by t^-1/2, and the slope is checked by sixteen renders each of a quarter of the
+samples: scenes where one does not have it are listed apart, and are counted in a mean of their own.
+Exit code 1 if a rate in turns is not that of alone.
 """
 
 import argparse
@@ -30,7 +31,7 @@ from bench.contest import (
     slope_of,
     time_lead_of,
 )
-from bench.entries import GLRT, MITSUBA, PEERS, TARGET_ERROR, best_mitsuba, level_of, ours
+from bench.entries import GLRT, MITSUBA, PEERS, TARGET_ERROR, best_mitsuba, by_default, level_of
 from bench.landscapes import landscape
 from bench.processes import ROOT
 from bench.program import add_rounds, at_least, exit_code_of, machine, parser_of
@@ -108,12 +109,12 @@ def measure_scene(
     seed: int = 0,
 ) -> Result:
     """Render a scene called `about`; RenderError if a renderer refuses it, or if it is black."""
-    own, small = ours(scene, size), min(size, TRIAL_SIZE)
+    own, small = by_default(scene, size), min(size, TRIAL_SIZE)
     with started({GLRT: commands[GLRT]}) as peers:
         level = level_of(peers, own, LEVEL_SECONDS)
         if not level.any():
             raise RenderError("its picture is black: no light reaches the camera.")
-        trial_level = level_of(peers, ours(scene, small), LEVEL_SECONDS)
+        trial_level = level_of(peers, by_default(scene, small), LEVEL_SECONDS)
     rival = best_mitsuba(commands, scene, small, trial_level, TRIAL_SECONDS)
     rival = replace(rival, request=replace(rival.request, width=size, height=size))
     entries = own, rival
