@@ -10,12 +10,11 @@ from glrt.cli.request import order
 from glrt.cli.sampler import BY_LENGTH, LEAST
 from glrt.gpu.context import Context
 from glrt.image.image import Image, read_recipe
-from glrt.image.sources import load
+from tests.shaders.test_sobol import lit
 from tests.support.renders import rendered, same
 
-SCENE = ("sky", "--width", "8", "--height", "6", "--bounces", "2", "--quiet")
+SCENE = ("lit.toml", "--width", "8", "--height", "6", "--quiet")
 LONG = (*SCENE, "--samples", str(LEAST))
-SIZE = {"width": 8, "height": 6, "bounces": 2}
 
 
 def chosen(*words: str, file: str = "out.exr") -> tuple[str, str | None]:
@@ -28,12 +27,14 @@ def chosen(*words: str, file: str = "out.exr") -> tuple[str, str | None]:
 
 @pytest.fixture(autouse=True)
 def _folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The folder of commands, with a scene whose kernels other tests compile, too."""
     monkeypatch.chdir(tmp_path)
+    lit().save("lit.toml")
 
 
 def test_long_renders_have_blocks_of_64_and_short_ones_of_16(context: Context) -> None:
     assert chosen(*LONG) == ("sobol64", BY_LENGTH)
-    image = rendered(load("sky"), context, LEAST, sampler="sobol64", **SIZE)
+    image = rendered(lit(), context, LEAST, sampler="sobol64", width=8, height=6)
     assert same(Image.load("out.exr"), image)
     assert chosen(*SCENE, "--samples", str(LEAST - 1)) == ("sobol", None)
 
@@ -84,7 +85,6 @@ def test_parts_choose_as_the_whole_does() -> None:
     assert merge(parts).samples == Image.load("out.exr").samples == LEAST
 
 
-def test_frames_of_a_film_choose_alike() -> None:
-    assert run(["film", *LONG, "--frames", "0-1", "--turntable", "2", "-o", "%02d.exr"]) == 0
-    recipes = [read_recipe(Path(f"{number:02}.exr")) for number in (0, 1)]
-    assert [recipe and recipe.settings.sampler for recipe in recipes] == ["sobol64"] * 2
+def test_a_film_chooses_as_a_render_does() -> None:
+    arguments = parse(["film", *LONG, "--turntable", "2", "-o", "%02d.exr"])
+    assert order(arguments).settings.sampler == "sobol64"

@@ -32,9 +32,9 @@ def draws(
     what: str = "next_2d(rng)",
 ) -> Array:
     """The pair of numbers that samples of pixels draw after so many others, (n, 2) float64."""
-    setup = f"""Sampler rng = sampler_at(ivec2(x % 64, x / 64), index, 7u);
-        for (int k = 0; k < {skipped}; ++k) next_2d(rng);"""
-    args = {"x": pixel, "index": sample}
+    setup = """Sampler rng = sampler_at(ivec2(x % 64, x / 64), index, 7u);
+        for (int k = 0; k < skipped; ++k) next_2d(rng);"""
+    args = {"x": pixel, "index": sample, "skipped": np.full(len(pixel), skipped)}
     found = call_glsl(what, "vec2", setup=setup, constants={"BLOCK": block}, **args)
     return found.astype(np.float64)
 
