@@ -25,7 +25,6 @@ Programs, `python -m bench.NAME`; `--help` lists their options:
 - error_ratios: the same where few samples find light, and in ordinary scenes
 - false_alarms: the rates of false alarms and of detections of `glrt compare`
 - picture_runs: how often a run of fifty picture tests alarms falsely
-- nets: the variance of sampler net over that of sobol, and its calibration
 - choices: whether `--caustics auto` chooses the best
 - films: whether a film takes longer than its stills
 - clusters: the cost of a cluster, of its scheduler and of several workers

@@ -16,12 +16,13 @@ import numpy as np
 from bench.contest import Array, seconds_to
 from bench.peer import Peer, Request
 from bench.turns import Command, Entry, interleaved, samples_for, started
-from glrt.cli.sampler import LONG
+from glrt.cli.sampler import LEAST, sampler_for
 from glrt.samplers import DIVISIONS
 from glrt.scene.scene import Scene
 
 TARGET_ERROR = 0.02  # relative RMS
 TRIAL_ROUNDS = 4
+TRIAL_SECONDS = 1.0  # of a render
 TRIAL_SEED = 1000  # the first one of trials: choices are not made by the renders that count
 MULTIJITTER_BLOCK = 64  # samples; tests/mitsuba renders its pictures in blocks of them
 GLRT, MITSUBA, WGSL = "glrt", "Mitsuba", "WGSL"
@@ -44,10 +45,14 @@ def ours(scene: Scene, size: int, sampler: str = "sobol") -> Entry:
     return Entry(f"glrt mis, {sampler}", GLRT, asked, DIVISIONS[sampler].block)
 
 
-def by_default(scene: Scene, size: int) -> Entry:
-    """glrt as `glrt render` makes long renders: blocks of 64, and particles where they pay."""
-    asked = request(scene, size, method="mis", sampler=LONG, chooses=True)
-    return Entry("glrt", GLRT, asked, DIVISIONS[LONG].block)
+def by_default(scene: Scene, size: int, samples: int = LEAST) -> Entry:
+    """glrt as `glrt render` makes long renders of so many samples.
+
+    It has the blocks that `--sampler auto` takes, and particles where they pay.
+    """
+    sampler = sampler_for(samples)
+    asked = request(scene, size, method="mis", sampler=sampler, chooses=True)
+    return Entry(f"glrt, {sampler}", GLRT, asked, DIVISIONS[sampler].block)
 
 
 def alike(scene: Scene, size: int) -> list[Entry]:
@@ -72,12 +77,18 @@ def level_of(peers: Mapping[str, Peer], entry: Entry, seconds: float) -> Array:
     return contender.render(samples_for(contender, seconds), 0)[0].astype(np.float64)
 
 
+def samples_to(error: float, peers: Mapping[str, Peer], entry: Entry, level: Array) -> int:
+    """Samples per pixel with which an entry reaches a relative RMS error, by a trial."""
+    (runs,) = interleaved([entry.contender(peers)], TRIAL_ROUNDS, TRIAL_SECONDS, TRIAL_SEED)
+    return int(runs.variances(level).mean() / error**2)
+
+
 def best_mitsuba(
     commands: Mapping[str, Command],
     scene: Scene,
     size: int,
     level: Array,
-    seconds: float,
+    seconds: float = TRIAL_SECONDS,
     is_one_sided: bool = False,
 ) -> Entry:
     """The way in which Mitsuba takes the least time to an error, by a trial."""

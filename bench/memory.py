@@ -45,9 +45,8 @@ def measure(size: int, sampler: Sampler) -> Row:
     block = settings.block
     textures = 2 * (2 if block == 1 else 3)  # mean, variance, incomplete block; all twice
     picture = PICTURE + (BEGUN if block > 1 else 0)
-    if scrambles := settings.division.scrambles:  # in place of an incomplete block
-        kept = scrambles + 2 if settings.division.is_shared else 2 * scrambles
-        textures, picture = 4 + kept, PICTURE + scrambles * TEXEL
+    if groups := settings.division.groups:  # in place of an incomplete block
+        textures, picture = 6 + groups, PICTURE + groups * TEXEL
     film, picture = textures * TEXEL * size**2, picture * size**2
     return Row(size, sampler, large[0], large[1], small[1], film, picture)
 

@@ -33,8 +33,8 @@ from bench.entries import (
 )
 from bench.program import add_rounds, exit_code_of, machine, parser_of
 from bench.turns import Command, Entry, Pace, complaints, installed, started, taking_turns, verdict
+from glrt.analysis.variants import SAMPLERS
 from glrt.core import files
-from glrt.samplers import DIVISIONS
 from glrt.scene.loading.scene_files import files_of
 from glrt.scene.scene import Scene
 
@@ -72,7 +72,7 @@ class Contest:
     def rows(self, name: str) -> Iterator[Row]:
         """The rows of a scene."""
         scene = scene_of(name)
-        entries = [ours(scene, self._size, sampler) for sampler in DIVISIONS]
+        entries = [ours(scene, self._size, sampler) for sampler in SAMPLERS]
         level = self._level(entries[0])
         if MITSUBA in self._commands:
             entries.append(self._mitsuba(name, scene, level))

@@ -18,18 +18,23 @@ from typing import Any, NamedTuple, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from bench.nets import scene_of
+from bench.mesh_sizes import displaced
+from bench.mesh_sizes import scene_of as under_a_sky
 from bench.program import add_rounds, at_least, exit_code_of, machine, parser_of
 from bench.sheets import in_rows, titled, write_sheet
 from glrt.core.files import check_writable
 from glrt.error.estimate import DARK, block_means
 from glrt.gpu.context import Context, open_context
 from glrt.image.image import Image
+from glrt.image.sources import load
 from glrt.rendering.renderer import Renderer
 from glrt.samplers import DIVISIONS
+from glrt.scene.scene import Scene
+from glrt.scene.shapes.mesh import Mesh
 from glrt.settings import Caustics, Sampler
 
-SCENES = ("cornell", "sky", "metals", "weekend", "methods/diffuse", "mesh")
+MESH = "mesh"  # a ball of 5,120 triangles under a gradient sky
+SCENES = ("cornell", "sky", "metals", "weekend", "methods/diffuse", MESH)
 QUANTILES = (0.05, 0.95)
 BLOCK = 8  # pixels a side, of means
 OTHER_SEEDS = 1 << 20  # samplers must not share numbers
@@ -53,6 +58,13 @@ class Gain(NamedTuple):
         figures = f"{self.variance:.2f} | {self.speed:.2f} | {self.variance * self.speed:.2f}"
         told = f"{self.told:.2f} ({self.ends[0]:.2f} to {self.ends[1]:.2f})"
         return f"{figures} | {told} | {self.apart:.2f}"
+
+
+def scene_of(name: str) -> Scene:
+    """The mesh under a sky, or a scene by its name."""
+    if name == MESH:
+        return under_a_sky(Mesh(*displaced(4), material="clay", smooth=False))
+    return load(name)
 
 
 def measure(

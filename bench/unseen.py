@@ -1,11 +1,12 @@
 """The lead over Mitsuba on scenes that nobody has seen: drawn from a hash of the program itself.
 
 Every change of glrt/ or shaders_glsl/ draws other scenes of `bench.landscapes`, so that none can be
-tuned for. In each scene glrt, as `glrt render` makes long renders, and Mitsuba at its best
-(`bench.entries`) take turns with sixteen independent renders of their own. Errors are relative RMS,
-about each renderer's own mean; the time of glrt's pilot does not count. Seconds to 2 % are
-extrapolated by t^-1/2, and the slope is checked by sixteen renders each of a quarter of the
-samples: scenes where one does not have it are listed apart, and are counted in a mean of their own.
+tuned for. In each scene glrt and Mitsuba at its best (`bench.entries`) take turns with sixteen
+independent renders of their own. glrt has the blocks that `glrt render` takes for the samples to
+2 %, and particles where its pilot finds that they pay; the time of the pilot does not count.
+Errors are relative RMS, about each renderer's own mean. Seconds to 2 % are extrapolated by t^-1/2,
+and the slope is checked by sixteen renders each of a quarter of the samples: scenes where one does
+not have it are listed apart, and are counted in a mean of their own.
 Exit code 1 if a rate in turns is not that of alone.
 """
 
@@ -31,7 +32,16 @@ from bench.contest import (
     slope_of,
     time_lead_of,
 )
-from bench.entries import GLRT, MITSUBA, PEERS, TARGET_ERROR, best_mitsuba, by_default, level_of
+from bench.entries import (
+    GLRT,
+    MITSUBA,
+    PEERS,
+    TARGET_ERROR,
+    best_mitsuba,
+    by_default,
+    level_of,
+    samples_to,
+)
 from bench.landscapes import landscape
 from bench.processes import ROOT
 from bench.program import add_rounds, at_least, exit_code_of, machine, parser_of
@@ -57,7 +67,6 @@ HASHED = ("glrt", "shaders_glsl")
 UNHASHED = ("__pycache__",)
 QUARTER = 4  # times as many samples in the renders that count as in those of the slope
 SLOPE_SEED = 500  # the first one of the renders of a quarter of the samples
-TRIAL_SECONDS = 1.0
 TRIAL_SIZE = 256  # pixels on a side, at most, of Mitsuba's trial: 64 samples of more take minutes
 LEVEL_SECONDS = 4.0
 
@@ -115,7 +124,8 @@ def measure_scene(
         if not level.any():
             raise RenderError("its picture is black: no light reaches the camera.")
         trial_level = level_of(peers, by_default(scene, small), LEVEL_SECONDS)
-    rival = best_mitsuba(commands, scene, small, trial_level, TRIAL_SECONDS)
+        own = by_default(scene, size, samples_to(TARGET_ERROR, peers, own, level))
+    rival = best_mitsuba(commands, scene, small, trial_level)
     rival = replace(rival, request=replace(rival.request, width=size, height=size))
     entries = own, rival
     alone = [pace_alone(commands, entry, seconds) for entry in entries]
@@ -174,13 +184,15 @@ def _about(scene: Scene) -> str:
 
 def table(results: Sequence[Result]) -> Iterator[str]:
     """The scenes as Markdown; pairs are of glrt and of Mitsuba."""
-    columns = ["seed", "scene", "Mitsuba with", "samples", "million samples/s", "in turns / alone"]
-    columns += ["slope of glrt", "of Mitsuba", "to 2 %", "lead of glrt", "means apart"]
+    columns = ["seed", "scene", "glrt with", "Mitsuba with", "samples", "million samples/s"]
+    columns += ["in turns / alone", "slope of glrt", "of Mitsuba", "to 2 %", "lead of glrt"]
+    columns += ["means apart"]
     yield f"| {' | '.join(columns)} |"
     yield "|---" * len(columns) + "|"
     for found in results:
         rates = ", ".join(f"{pace.in_turns / 1e6:.2f}" for pace in found.paces)
-        cells = [found.seed, found.about, found.names[1].removeprefix("Mitsuba, ")]
+        ways = (found.names[0].removeprefix("glrt, "), found.names[1].removeprefix("Mitsuba, "))
+        cells = [found.seed, found.about, *ways]
         cells += ["{}, {}".format(*found.samples), rates, "{}, {}".format(*found.paces)]
         cells += [*found.slopes, "{:.3g} s, {:.3g} s".format(*found.seconds)]
         cells += [found.lead.factor, f"{100 * found.distance:.1f} %"]

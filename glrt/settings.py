@@ -31,7 +31,7 @@ Method = Literal[
     "march",
 ]
 Effect = Literal["shadows", "reflections", "refractions", "ambient_occlusion", "gi"]
-Sampler = Literal["sobol", "sobol64", "net", "shared", "independent"]
+Sampler = Literal["sobol", "sobol64", "sobol256", "sobol1024", "shared", "independent"]
 Caustics = Literal["off", "on"]
 Adaptive = Literal["off", "on"]
 ToneMap = Literal["none", "aces", "agx", "neutral"]
@@ -84,7 +84,7 @@ class RenderSettings(Frozen):
         "off",
         description="on: pixels get samples in proportion to their noise, so that `samples` is the "
         "mean over pixels; the noise is that of the neighbours of a pixel in its first samples, "
-        "which all pixels get: 64, or 256 with sampler sobol64",
+        "which all pixels get: 64, or four blocks of a sampler with longer ones",
     )
     phong: Annotated[Phong | None, Editable(Cost.RESTART)] = Field(
         None,
@@ -117,12 +117,10 @@ class Settings(RenderSettings):
     sampler: Annotated[Sampler, Editable(Cost.RECOMPILE)] = Field(
         "sobol",
         description="sobol: scrambled Sobol' points in blocks of 16 samples, least noise in most "
-        "scenes; sobol64: blocks of 64 samples, even less noise under smooth lighting, with an "
-        "error from 128 samples on; net: samples of a pixel fill 8 nets that keep growing, less "
-        "noise from 256 samples on; shared: sobol with half of its blocks the same in all pixels, "
-        "and neighbours on an object are combined without bias: less noise in large pictures of "
-        "matte surfaces and smooth meshes, from 256 samples on; independent: independent random "
-        "numbers",
+        "scenes; sobol64, sobol256, sobol1024: longer blocks, less noise, with an error from two "
+        "blocks on; shared: sobol with half of its blocks the same in all pixels, and neighbours "
+        "on an object are combined without bias: less noise in large pictures of matte surfaces "
+        "and smooth meshes, from 256 samples on; independent: independent random numbers",
     )
     roulette: Annotated[bool, Editable(Cost.RECOMPILE)] = Field(
         True,
@@ -213,8 +211,8 @@ class Settings(RenderSettings):
     def block(self) -> int:
         """Number of samples in a block: renders in parts are cut between blocks.
 
-        A block is an observation, over which errors are estimated. With nets, it is one sample of
-        each scramble, and a scramble is an observation.
+        A block is an observation, over which errors are estimated. With shared numbers, a block has
+        samples of each group, and a pair of groups is an observation.
         """
         return self.division.block
 

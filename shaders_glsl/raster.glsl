@@ -6,7 +6,6 @@
 #include "sampling/hash.glsl"
 #include "sampling/unit_float.glsl"
 #include "sampling/sobol.glsl"
-#include "sampling/sobol64.glsl"
 #include "sampling/net.glsl"
 #include "sampling/sampler.glsl"
 #include "sampling/warp.glsl"

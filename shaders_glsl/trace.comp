@@ -26,7 +26,7 @@ Pixel load_pixel(ivec2 texel) {
     vec4 mean = imageLoad(source_mean, texel);
     vec4 variance = imageLoad(source_variance, texel);
     vec4 block = vec4(0.0);
-    if (BLOCK > 1 && !HAS_NET) block = imageLoad(source_block, texel);
+    if (BLOCK > 1) block = imageLoad(source_block, texel);
     return Pixel(mean.rgb, mean.a, variance.rgb, variance.a, block.rgb, block.a);
 }
 
@@ -54,22 +54,6 @@ void store_layers(ivec2 texel, Layers layers) {
     }
 }
 
-// The means of a net lie in the texture of blocks, NET_COLUMNS side by side.
-ivec2 scramble_place(ivec2 texel, int scramble) {
-    return imageSize(target_mean) * ivec2(scramble % NET_COLUMNS, scramble / NET_COLUMNS) + texel;
-}
-
-void load_net(ivec2 texel) {
-    for (int i = 0; i < NET; i += 1) {
-        net_means[i] = vec4(0.0);
-        if (frame.is_empty == 0) net_means[i] = imageLoad(source_block, scramble_place(texel, i));
-    }
-}
-
-void store_net(ivec2 texel) {
-    for (int i = 0; i < NET; i += 1) imageStore(target_block, scramble_place(texel, i), net_means[i]);
-}
-
 void main() {
     ivec2 picture = imageSize(target_mean);
     ivec2 corner = tile_corner(picture, frame.first_tile + int(gl_WorkGroupID.x));
@@ -77,15 +61,12 @@ void main() {
     if (any(greaterThanEqual(texel, picture))) return;
     Pixel pixel = load_pixel(texel);
     Layers layers = load_layers(texel);
-    if (HAS_NET) load_net(texel);
     if (RASTERS) keep_raster(texelFetch(raster_hits, texel, 0).xy);
     int lost = add_samples(pixel, layers, frame.origin + texel, frame.first_sample);
     if (MAY_LOSE && lost > 0) atomicAdd(lost_samples, uint(lost));
-    if (HAS_NET) judge_net(pixel);
     imageStore(target_mean, texel, vec4(pixel.mean, pixel.count));
     imageStore(target_variance, texel, vec4(pixel.variance, pixel.observations));
-    if (HAS_NET) store_net(texel);
-    else if (BLOCK > 1) imageStore(target_block, texel, vec4(pixel.block, pixel.begun));
+    if (BLOCK > 1) imageStore(target_block, texel, vec4(pixel.block, pixel.begun));
     store_layers(texel, layers);
     if (!REUSES) return;
     for (int i = 0; i < PARTS_OF_RESERVOIR; i += 1) {

@@ -13,7 +13,7 @@ from glrt.plan.particle_refusals import refusal
 from glrt.rendering.probe_supply import HYSTERESIS
 from glrt.scene.grids import edges_of_voxels
 from glrt.scene.scene import Scene
-from glrt.settings import Method, Settings, settings_for
+from glrt.settings import Method, Sampler, Settings, settings_for
 
 METHODS: tuple[str, ...] = get_args(Method)
 LEAD = "mis"  # the method whose variants are charted
@@ -21,6 +21,7 @@ ADAPTIVE = f"{LEAD}, adaptive"  # measured where it is asked for
 LINKED = {"particles": 0.35, "aimed": 0.2, "linked": 1.0}  # particles that are linked, too
 LONGER = 8  # times the step of a method that marches
 LIVE = "ddgi, live probes"
+SAMPLERS: tuple[Sampler, ...] = ("sobol", "sobol64", "shared", "independent")  # for short renders
 FEW_BOUNCES, MANY_TIMES, MOST_BOUNCES = (1, 2, 5), 8, 256
 
 
@@ -133,6 +134,6 @@ def _variants_of_lead(settings: Settings) -> Iterator[tuple[str, dict[str, Any]]
         yield f"{LEAD}, {bounces} bounce{plural}", {"method": LEAD, "bounces": bounces}
     if settings.roulette:
         yield f"{LEAD}, no roulette", {"method": LEAD, "roulette": False}
-    for sampler in get_args(Settings.model_fields["sampler"].annotation):
+    for sampler in SAMPLERS:
         if sampler != settings.sampler:
             yield f"{LEAD}, {sampler}", {"method": LEAD, "sampler": sampler}

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from glrt.analysis.method_choice.caustics import Finding
 
 SHORT = 30.0  # seconds: of a shorter `--time`, a pilot would take too large a share
-WITHOUT = {Way.TERMS, Way.NET, Way.ADAPTIVE}  # options that particles do not go with
+WITHOUT = {Way.TERMS, Way.ADAPTIVE}  # options that particles do not go with
 MANY = 100  # times as efficient: the message reports no larger gain
 
 

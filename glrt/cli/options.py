@@ -22,7 +22,8 @@ _AUTO = {  # what it chooses, by option
     "method": "the cheapest that reaches --error, measured first for some seconds, or for half of "
     "--time",
     "caustics": "as a short pilot finds it cheaper, for long renders of scenes with glass or metal",
-    "sampler": "sobol64 for renders of 512 samples or more, without --time and --error; else sobol",
+    "sampler": "sobol64 for renders of 512 samples or more, sobol256 from 2,048 on, sobol1024 from "
+    "8,192 on; sobol for shorter ones, and with --time or --error",
 }
 _OF_FILES = ("phong",)  # settings without an option: tables of scene files
 _LEFT_OPEN = ("caustics", "sampler")  # options whose default is AUTO

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TypedDict, Unpack
 
 from glrt.cli.options import file_rules, is_automatic, settings_given
-from glrt.cli.sampler import BY_LENGTH, with_sampler
+from glrt.cli.sampler import by_length, with_sampler
 from glrt.core.errors import UsageError
 from glrt.denoise.filters import with_filter
 from glrt.gpu.context import Choice, Context, Pipeline
@@ -89,7 +89,8 @@ def _with_sampler(arguments: argparse.Namespace, order: Order) -> Order:
     settings = with_sampler(arguments, order.settings)
     if settings == order.settings:
         return order
-    return replace(order, settings=settings, decisions={**order.decisions, "sampler": BY_LENGTH})
+    decisions = {**order.decisions, "sampler": by_length(settings.sampler)}
+    return replace(order, settings=settings, decisions=decisions)
 
 
 def _in_parts(arguments: argparse.Namespace, order: Order) -> Order:

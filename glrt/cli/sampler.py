@@ -1,4 +1,4 @@
-"""`--sampler auto`: blocks of 64 samples for long renders, and of 16 for others."""
+"""`--sampler auto`: blocks of 64 samples or more for long renders, and of 16 for others."""
 
 import argparse
 
@@ -6,36 +6,49 @@ from glrt.cli.options import AUTO, is_automatic
 from glrt.samplers import DIVISIONS
 from glrt.settings import Sampler, Settings, settings_for
 
-LONG: Sampler = "sobol64"
+LONG: tuple[Sampler, ...] = ("sobol64", "sobol256", "sobol1024")  # by ascending blocks
 BLOCKS = 8  # of a long render, at least: its error is estimated from their spread
-LEAST = BLOCKS * DIVISIONS[LONG].block  # samples per pixel
+LEAST = BLOCKS * DIVISIONS[LONG[0]].block  # samples per pixel of a long render
 METHODS = ("naive", "nee", "mis")  # those for which it was measured
-BY_LENGTH = f"auto: {LEAST} samples or more"
 
 
 def with_sampler(arguments: argparse.Namespace, settings: Settings) -> Settings:
-    """Return settings of a new render, with blocks of 64 if it is long and that is left open.
+    """Return settings of a new render, with larger blocks if it is long and that is left open.
 
     With `--time` or `--error` a render may end early, before the error of such blocks is known.
-    More parts than such blocks need smaller ones.
     """
-    fits = not arguments.part or arguments.part[1] * DIVISIONS[LONG].block <= settings.samples
-    is_taken = fits and not is_automatic(arguments) and _is_long(arguments, settings)
-    return settings_for(settings, sampler=LONG) if is_taken else settings
+    if is_automatic(arguments):
+        return settings
+    return settings_for(settings, sampler=_by_length(arguments, settings))
+
+
+def sampler_for(samples: int, parts: int = 1) -> Sampler:
+    """Return the sampler with the largest blocks of which there are BLOCKS, and one a part."""
+    fits = (it for it in LONG if samples >= max(BLOCKS, parts) * DIVISIONS[it].block)
+    return max(fits, key=lambda it: DIVISIONS[it].block, default="sobol")
+
+
+def by_length(sampler: Sampler) -> str:
+    """Return why a render has a sampler of LONG."""
+    return f"auto: {BLOCKS * DIVISIONS[sampler].block} samples or more"
 
 
 def kept(arguments: argparse.Namespace, settings: Settings) -> str:
     """Return a sentence if a picture goes on with a sampler that one render would not take."""
-    if settings.sampler == LONG or not _is_long(arguments, settings):
+    wanted = _by_length(arguments, settings)
+    if wanted == settings.sampler:
         return ""
     return (
         f"Rendering with --sampler {settings.sampler}, as the picture began. One render of "
-        f"{settings.samples} samples takes {LONG} by default, and has other bits."
+        f"{settings.samples} samples takes {wanted} by default, and has other bits."
     )
 
 
-def _is_long(arguments: argparse.Namespace, settings: Settings) -> bool:
-    """Whether a new render would take blocks of 64."""
+def _by_length(arguments: argparse.Namespace, settings: Settings) -> Sampler:
+    """The sampler of a new render with these settings, which keep theirs if it is not open."""
     is_open = getattr(arguments, "sampler", AUTO) == AUTO
     is_fixed = arguments.time is None and arguments.error is None and settings.adaptive != "on"
-    return is_open and is_fixed and settings.samples >= LEAST and settings.method in METHODS
+    if not (is_open and is_fixed and settings.method in METHODS):
+        return settings.sampler
+    found = sampler_for(settings.samples, arguments.part[1] if arguments.part else 1)
+    return found if found in LONG else settings.sampler

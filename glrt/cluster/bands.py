@@ -17,8 +17,8 @@ from glrt.gpu.context import Choice, Pipeline
 from glrt.image.allotment import NO_COUNTS, NO_SHARES
 from glrt.image.aovs import AovImage
 from glrt.image.film_state import FilmState
+from glrt.image.group_channels import NO_GROUPS
 from glrt.image.image import Image
-from glrt.image.net_channels import NO_NET
 from glrt.image.recipe import Recipe
 from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
@@ -28,7 +28,7 @@ Crop = tuple[int, int, int, int]
 
 MOST_BANDS = 64
 TILE = 8  # rows of a work group
-_BY_ROWS = 5  # arrays of a film state before its nets
+_BY_ROWS = 5  # arrays of a film state before its groups
 
 
 def bands_of(settings: Settings) -> list[Crop]:
@@ -132,10 +132,11 @@ def joined(bands: Sequence[Image], settings: Settings) -> Image:
 
 
 def _joined_states(states: Sequence[FilmState]) -> FilmState:
-    """Return the state of all rows; pixels have equal counts. Nets have scrambles before rows."""
-    net = np.concatenate([s.net for s in states], axis=1) if len(states[0].net) else NO_NET
+    """Return the state of all rows; pixels have equal counts. Groups come before rows."""
+    groups = [it.groups for it in states]
+    means = np.concatenate(groups, axis=1) if len(groups[0]) else NO_GROUPS
     rows = [_stacked([state[k] for state in states]) for k in range(_BY_ROWS)]
-    return FilmState._make([*rows, net, NO_COUNTS, NO_SHARES])
+    return FilmState._make([*rows, means, NO_COUNTS, NO_SHARES])
 
 
 def _joined_aovs(parts: Sequence[AovImage]) -> AovImage:

@@ -20,7 +20,7 @@ def independent(image: Image) -> Image:
             "pixels of a picture by --sampler shared err alike: glrt compare needs its .exr as "
             "glrt wrote it, which has the means of all groups of samples."
         )
-    radiance, stderr = own_part(image.film_state.net)
+    radiance, stderr = own_part(image.film_state.groups)
     if image.particles:  # which never share numbers
         film = image.particles._replace(camera=radiance)
         observations = observations_of(image.samples, image.recipe.settings.division.points)

@@ -24,7 +24,6 @@ from glrt.core.errors import UsageError
 from glrt.error.estimate import sidak_threshold
 from glrt.image.image import Image
 from glrt.plan.methods import traits_of
-from glrt.samplers import NET
 
 Flags = NDArray[np.bool_]
 
@@ -106,8 +105,6 @@ def _pair(image: Image, reference: Image, broken: Flags, alike: bool | None) -> 
     if alike is None:
         known = not (np.isnan(va) | np.isnan(vb)).any()
         alike = known and _same_method(image, reference)
-    if _has_net(image) or _has_net(reference):
-        alike = alike and image.samples == reference.samples
     alike = alike and not (np.ptp(image.counts) or np.ptp(reference.counts))
     # The variance of a picture without standard errors: the other's for its number of samples, or
     # the squared difference less the other's, whichever is more.
@@ -119,14 +116,8 @@ def _pair(image: Image, reference: Image, broken: Flags, alike: bool | None) -> 
     return Pair(a, b, *filled, image.samples, reference.samples, alike, _block(image, reference))
 
 
-def _has_net(image: Image) -> bool:
-    return bool(image.recipe and image.recipe.settings.division.scrambles)
-
-
 def _block(image: Image, reference: Image) -> float:
-    """Samples of an observation that chance deals out: of the longest scramble, if there is one."""
-    if nets := [i.samples / NET for i in (image, reference) if _has_net(i)]:
-        return max(nets)
+    """Samples of an observation that chance deals out."""
     blocks = {i.recipe.settings.block if i.recipe else 1 for i in (image, reference)}
     return blocks.pop() if len(blocks) == 1 else 1
 

@@ -5,7 +5,7 @@ Modules, each importing only what stands above it:
 - tonemap: from radiance to the colours of a screen
 - aovs: AOVs of a picture, in channels of a file
 - allotment: samples of each pixel of an adaptive picture
-- net_channels: the means of nets, by scrambles, and the error that follows from them
+- group_channels: the means of groups of shared numbers, and the error that follows from them
 - shared_numbers: a picture whose pixels share random numbers, and its error
 - film_state: state of a film in addition to its mean, in channels of a file
 - particle_film: a picture as the sum of two films, in channels of a file

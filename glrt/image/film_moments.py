@@ -11,13 +11,13 @@ from glrt.image.image import Image
 from glrt.image.moments import Moments
 from glrt.image.particle_film import ParticleFilm, observations_of
 
-# Films, in addition to those of AOVs. That of nets has the scrambles below each other.
-RADIANCE, PARTICLES, NETS = "radiance", "particles", "nets"
+# Films, in addition to those of AOVs. That of groups of shared numbers has them below each other.
+RADIANCE, PARTICLES, GROUPS = "radiance", "particles", "groups"
 NOTHING = np.zeros((1, 1, 1))
 
 
 def moments_of(image: Image, film: str) -> Moments | None:
-    """Moments of one film: of radiance, particles, nets or an AOV; None if its state is lacking."""
+    """Moments of a film: of radiance, particles, groups or an AOV; None if its state is lacking."""
     aovs = {str(aov): found for aov, found in image.aovs.items()}
     if film in aovs:
         return _of_aov(aovs[film])
@@ -26,22 +26,22 @@ def moments_of(image: Image, film: str) -> Moments | None:
         return _of_particles(image.particles, count)
     if image.film_state is None:
         return None
-    if film == NETS:
-        return _of_nets(image.film_state)
+    if film == GROUPS:
+        return _of_groups(image.film_state)
     return _of_radiance(image, image.film_state) if film == RADIANCE else None
 
 
-def net_of(nets: Moments, scrambles: int) -> NDArray[np.float32]:
-    """The means of scrambles and their samples, (R, H, W, 4), from the moments of NETS."""
-    net = np.concatenate([nets.mean, nets.samples], axis=-1).astype(np.float32)
-    return net.reshape(scrambles, -1, *net.shape[1:])
+def groups_of(moments: Moments, count: int) -> NDArray[np.float32]:
+    """The means of groups and their samples, (count, H, W, 4), from the moments of GROUPS."""
+    rows = np.concatenate([moments.mean, moments.samples], axis=-1).astype(np.float32)
+    return rows.reshape(count, -1, *rows.shape[1:])
 
 
-def _of_nets(state: FilmState) -> Moments | None:
-    """Moments of the scrambles of nets, which go on from part to part."""
-    if not len(state.net):
+def _of_groups(state: FilmState) -> Moments | None:
+    """Moments of groups of shared numbers, which go on from part to part."""
+    if not len(state.groups):
         return None
-    rows = state.net.reshape(-1, *state.net.shape[2:]).astype(np.float64)
+    rows = state.groups.reshape(-1, *state.groups.shape[2:]).astype(np.float64)
     return Moments(rows[..., 3:], rows[..., :3], NOTHING, NOTHING, NOTHING, NOTHING)
 
 

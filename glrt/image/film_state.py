@@ -11,9 +11,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from glrt.image import net_channels
+from glrt.image import group_channels
 from glrt.image.allotment import NO_COUNTS, NO_SHARES, Counts
-from glrt.image.net_channels import NO_NET
+from glrt.image.group_channels import NO_GROUPS
 
 Array = NDArray[np.float32]
 Channels = dict[str, NDArray[Any]]
@@ -31,18 +31,18 @@ class FilmState(NamedTuple):
     observations: Array  # complete ones
     part: Array  # (H, W, 3): mean of the finite samples of the incomplete observation
     begun: Array  # number of those samples
-    net: Array = NO_NET  # (scrambles, H, W, 4): mean and finite samples, by scrambles
+    groups: Array = NO_GROUPS  # (groups, H, W, 4): mean and finite samples, of shared numbers
     counts: Counts = NO_COUNTS  # samples taken, where pixels have counts of their own, int32
     shares: Array = NO_SHARES  # of pixels in further samples, then
 
 
-def empty_state(height: int, width: int, scrambles: int = 0) -> FilmState:
+def empty_state(height: int, width: int, groups: int = 0) -> FilmState:
     """A state of zeros, which takes no memory until it is written."""
     pixels, colors = (height, width), (height, width, 3)
     shapes = colors, pixels, pixels, colors, pixels
-    net = np.zeros((scrambles, height, width, 4), np.float32) if scrambles else NO_NET
+    empty = np.zeros((groups, height, width, 4), np.float32) if groups else NO_GROUPS
     variance, dropped, observations, part, begun = (np.zeros(it, np.float32) for it in shapes)
-    return FilmState(variance, dropped, observations, part, begun, net)
+    return FilmState(variance, dropped, observations, part, begun, empty)
 
 
 def keep(film: FilmState, rows: slice, part: FilmState) -> None:
@@ -50,8 +50,8 @@ def keep(film: FilmState, rows: slice, part: FilmState) -> None:
     for array, band in zip(film[:5], part[:5], strict=True):
         if band.any():
             array[rows] = band
-    if len(film.net):
-        film.net[:, rows] = part.net
+    if len(film.groups):
+        film.groups[:, rows] = part.groups
 
 
 def error_of_mean(
@@ -79,10 +79,10 @@ def to_channels(film: FilmState, stderr: Array, samples: int, block: int) -> Cha
 
     Arrays are (H, W, 3) and (H, W), in float32 and uint32.
     """
-    is_net = len(film.net) > 0
-    is_whole = is_net or film.counts.size > 0 or samples % block == 0
+    is_shared = len(film.groups) > 0
+    is_whole = is_shared or film.counts.size > 0 or samples % block == 0
     counted = film.counts if film.counts.size else samples
-    observations = _complete(counted, block, len(film.net))
+    observations = 0 if is_shared else counted // block
     folded = np.empty(stderr.shape, np.int32)
     for row, kept in enumerate(folded):
         near = _variance(stderr[row], film.observations[row], is_whole)
@@ -91,7 +91,7 @@ def to_channels(film: FilmState, stderr: Array, samples: int, block: int) -> Cha
     channels: Channels = {VARIANCE: folded.view(np.uint32)}
     counts = {DROPPED: film.dropped, MISSING: observations - film.observations}
     channels |= {name: c.astype(np.uint32) for name, c in counts.items() if c.any()}
-    channels |= net_channels.to_channels(film.net, samples, block)
+    channels |= group_channels.to_channels(film.groups, samples, block)
     if film.counts.size:
         channels |= {COUNTS: film.counts.astype(np.uint32), SHARES: film.shares}
     return channels if is_whole else channels | {PART: film.part, BEGUN: film.begun}
@@ -102,44 +102,36 @@ def from_channels(
     stderr: Array,
     samples: int,
     block: int,
-    scrambles: int = 0,
+    groups: int = 0,
 ) -> FilmState | None:
     """Read what `to_channels` has written; None if a channel is missing or has another size.
 
-    `channels` are planes (H, W), such as `film.variance.R` and `film.dropped`. Where samples fill
-    nets, there are so many `scrambles`.
+    `channels` are planes (H, W), such as `film.variance.R` and `film.dropped`. Where pixels share
+    numbers, there are so many `groups`.
     """
-    size, is_net = stderr.shape[:2], scrambles > 0
+    size, is_shared = stderr.shape[:2], groups > 0
     planes = {name: plane for name, plane in channels.items() if plane.shape == size}
     counts, shares = NO_COUNTS, NO_SHARES
     if COUNTS in planes and SHARES in planes:
         counts, shares = planes[COUNTS].astype(np.int32), planes[SHARES].astype(np.float32)
-    is_whole = is_net or counts.size > 0 or samples % block == 0
+    is_whole = is_shared or counts.size > 0 or samples % block == 0
     none = np.zeros(size, np.float32)
     dropped, missing = (planes.get(name, none).astype(np.float32) for name in (DROPPED, MISSING))
-    complete = _complete(counts if counts.size else samples, block, scrambles)
+    complete = 0 if is_shared else (counts if counts.size else samples) // block
     observations = np.asarray(complete, np.float32) - missing
     folded, part = _stacked(planes, VARIANCE), _stacked(planes, PART)
     begun = planes.get(BEGUN)
     if is_whole:
         part, begun = np.zeros_like(stderr), none
-    net = net_channels.from_channels(planes, size, samples, scrambles, block)
-    if folded is None or folded.dtype != np.uint32 or part is None or begun is None or net is None:
+    means = group_channels.from_channels(planes, size, samples, groups, block)
+    if folded is None or folded.dtype != np.uint32 or part is None or begun is None:
+        return None
+    if means is None:
         return None
     units = (folded >> 1).view(np.int32) ^ -(folded & 1).view(np.int32)
     near = _variance(stderr, observations, is_whole).view(np.int32)
     variance = (near + units).view(np.float32)
-    return FilmState(variance, dropped, observations, part, begun, net, counts, shares)
-
-
-def _complete(samples: int | Counts, block: int, scrambles: int) -> int | Counts:
-    """Complete observations of pixels without dropped samples; `block` nets are as many.
-
-    Of groups of shared numbers, which have no variance of their own, there are none.
-    """
-    if scrambles and isinstance(samples, int):
-        return min(samples, block) if scrambles == block else 0
-    return samples // block
+    return FilmState(variance, dropped, observations, part, begun, means, counts, shares)
 
 
 def _variance(stderr: Array, observations: Array, is_whole: bool) -> Array:

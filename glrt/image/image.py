@@ -159,7 +159,7 @@ class Image:
             return cls(radiance, stderr, 0)
         settings = recipe.settings
         film = from_channels(
-            channels, stderr, recipe.samples, settings.block, scrambles=settings.division.scrambles
+            channels, stderr, recipe.samples, settings.block, groups=settings.division.groups
         )
         found = aovs.from_channels(channels, settings.kept)
         two = particle_film.from_channels(channels, radiance.shape[:2])

@@ -8,7 +8,7 @@ import numpy as np
 
 from glrt.core.errors import UsageError
 from glrt.core.text import counted
-from glrt.image import net_channels, shared_numbers
+from glrt.image import group_channels, shared_numbers
 from glrt.image.aovs import AovImage
 from glrt.image.differences import (
     Pair,
@@ -17,7 +17,14 @@ from glrt.image.differences import (
     differing_settings,
     first_of,
 )
-from glrt.image.film_moments import NETS, NOTHING, PARTICLES, RADIANCE, moments_of, net_of
+from glrt.image.film_moments import (
+    GROUPS,
+    NOTHING,
+    PARTICLES,
+    RADIANCE,
+    groups_of,
+    moments_of,
+)
 from glrt.image.film_state import FilmState, error_of_mean
 from glrt.image.image import Image
 from glrt.image.moments import Moments, merged
@@ -66,12 +73,12 @@ def merged_image(
         return merged([partial(film_of, film, name) for name in order])[film]
 
     recipe = _recipe_of([parts[name] for name in order])
-    nets = whole(NETS) if recipe.settings.division.scrambles else None
-    image = _image(whole(RADIANCE), recipe, nets)
+    groups = whole(GROUPS) if recipe.settings.division.is_shared else None
+    image = _image(whole(RADIANCE), recipe, groups)
     objects = _objects_of(order[0], load(order[0])) if "object" in aovs else AovImage(NOTHING)
     found = {a: objects if a == "object" else _aov_image(a, whole(a)) for a in aovs}
-    if recipe.settings.division.is_shared and image.film_state:
-        shown = shared_numbers.picture(image.radiance, image.film_state.net, found)
+    if groups and image.film_state:
+        shown = shared_numbers.picture(image.radiance, image.film_state.groups, found)
         image = replace(image, **shown._asdict())
     if recipe.settings.caustics == "on":
         image = _with_particles(image, whole(PARTICLES), recipe)
@@ -178,12 +185,11 @@ def _with_particles(image: Image, moments: Moments, recipe: Recipe) -> Image:
     return replace(image, radiance=radiance, stderr=stderr, particles=film)
 
 
-def _image(film: Moments, recipe: Recipe, nets: Moments | None = None) -> Image:
-    """The picture of a film; with nets, their scrambles are its observations."""
-    net = net_of(nets, recipe.settings.division.scrambles) if nets else net_channels.NO_NET
-    if nets and not recipe.settings.division.is_shared:
-        squares, held = net_channels.judged(net)
-        film = film._replace(variance=squares, observations=held[..., None])
+def _image(film: Moments, recipe: Recipe, groups: Moments | None = None) -> Image:
+    """The picture of a film, with groups of shared numbers if there are any."""
+    means = group_channels.NO_GROUPS
+    if groups:
+        means = groups_of(groups, recipe.settings.division.groups)
     shape = film.mean.shape
     wide = film.mean, film.variance, np.broadcast_to(film.part, shape)
     mean, variance, part = (x.astype(np.float32) for x in wide)
@@ -193,7 +199,7 @@ def _image(film: Moments, recipe: Recipe, nets: Moments | None = None) -> Image:
     )
     share = np.asarray(begun / np.maximum(count, 1), np.float32)
     stderr = error_of_mean(mean, variance, observations, part, share)
-    state = FilmState(variance, recipe.samples - count, observations, part, begun, net)
+    state = FilmState(variance, recipe.samples - count, observations, part, begun, means)
     return Image(mean, stderr, recipe.samples, recipe, state)
 
 

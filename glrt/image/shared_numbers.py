@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from glrt.error.estimate import DARK
 from glrt.image.aovs import AovImages
-from glrt.image.net_channels import judged
+from glrt.image.group_channels import judged
 from glrt.samplers import GROUPS
 
 PAIRS = GROUPS // 2  # of C and P
@@ -47,29 +47,29 @@ class _Pairs(NamedTuple):
     share: Pixels  # of the pixel's samples
 
 
-def picture(mean: Pixels, net: NDArray[np.float32], aovs: AovImages) -> Shared:
+def picture(mean: Pixels, means: NDArray[np.float32], aovs: AovImages) -> Shared:
     """Return the picture of a film with the mean (H, W, 3) and its groups, (2 PAIRS, H, W, 4).
 
     While a group has no samples, it is the mean, and its error is unknown: NaN. The numbers of
     objects are among the AOVs.
     """
-    if not (net[..., 3].max(axis=(1, 2)) > 0).all():
+    if not (means[..., 3].max(axis=(1, 2)) > 0).all():
         return Shared(mean, np.full_like(mean, np.nan))
-    return combined(net, aovs["object"].value)
+    return combined(means, aovs["object"].value)
 
 
-def own_part(net: NDArray[np.float32]) -> Shared:
+def own_part(means: NDArray[np.float32]) -> Shared:
     """Return the picture of the numbers that are a pixel's own: pixels err independently."""
-    variance, count = judged(net[1::2])
-    weights = net[1::2, ..., 3:].astype(np.float64)
+    variance, count = judged(means[1::2])
+    weights = means[1::2, ..., 3:].astype(np.float64)
     total = np.maximum(weights.sum(axis=0), 1)
-    mean = (weights * net[1::2, ..., :3]).sum(axis=0) / total
+    mean = (weights * means[1::2, ..., :3]).sum(axis=0) / total
     with np.errstate(divide="ignore", invalid="ignore"):
         error = np.where(count[..., None] > 1, np.sqrt(variance / (count[..., None] - 1)), np.nan)
     return Shared(mean.astype(np.float32), error.astype(np.float32))
 
 
-def combined(net: NDArray[np.float32], objects: Numbers) -> Shared:
+def combined(means: NDArray[np.float32], objects: Numbers) -> Shared:
     """Return the picture of groups, (2 PAIRS, H, W, 4): means, and samples in channel 3.
 
     `objects` are numbers (H, W). Each group needs samples.
@@ -77,11 +77,11 @@ def combined(net: NDArray[np.float32], objects: Numbers) -> Shared:
     height, width = objects.shape
     radiance, stderr = np.empty((2, height, width, 3), np.float32)
     numbers, reach = _ranked(objects), max(BOXES)
-    scales = [DARK * _mean(net, half) ** 2 for half in (0, 1)]
+    scales = [DARK * _mean(means, half) ** 2 for half in (0, 1)]
     for top in range(0, height, STRIP):
         end = min(top + STRIP, height)
         first, last = max(top - reach, 0), min(end + reach, height)
-        pairs, kept = _pairs(net[:, first:last]), slice(top - first, end - first)
+        pairs, kept = _pairs(means[:, first:last]), slice(top - first, end - first)
         boxed = boxes(pairs.apart, BOXES, numbers[first:last])[..., kept, :]
         own = _Pairs(*(part[..., kept, :] for part in pairs))
         found = _strip(own, boxed, regions_of(numbers[top:end]), scales)
@@ -119,16 +119,16 @@ def _strip(pairs: _Pairs, boxed: Pixels, regions: Numbers, scales: Sequence[floa
     return Shared(radiance.astype(np.float32), np.sqrt(variance).astype(np.float32))
 
 
-def _pairs(net: NDArray[np.float32]) -> _Pairs:
-    planes = np.ascontiguousarray(np.moveaxis(net, -1, 1))
+def _pairs(means: NDArray[np.float32]) -> _Pairs:
+    planes = np.ascontiguousarray(np.moveaxis(means, -1, 1))
     common, own, both = planes[0::2, :3], planes[1::2, :3], planes[0::2, 3:] + planes[1::2, 3:]
     share = np.asarray(both / np.maximum(both.sum(axis=0), 1), np.float32)
     return _Pairs(np.asarray((common + own) / 2, np.float32), common - own, share)
 
 
-def _mean(net: NDArray[np.float32], half: int) -> float:
+def _mean(means: NDArray[np.float32], half: int) -> float:
     """The mean of all groups of a half of the pairs."""
-    groups = [group for number, group in enumerate(net) if number // 2 % 2 == half]
+    groups = [group for number, group in enumerate(means) if number // 2 % 2 == half]
     return float(np.mean([group[..., :3].mean(dtype=np.float64) for group in groups]))
 
 

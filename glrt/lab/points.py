@@ -22,7 +22,7 @@ SHUFFLED = "vec2 drawn(inout Sampler rng) { return next_2d(rng); }"
 IN_ORDER = """
 vec2 drawn(inout Sampler rng) {
     rng.dimension += STEP;
-    return next_of_64(rng, 0u, (rng.dimension & 1u) == 0u);
+    return next_of_net(rng, 0u, (rng.dimension & 1u) == 0u);
 }"""
 
 

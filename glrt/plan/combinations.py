@@ -32,7 +32,6 @@ class Way(StrEnum):
     LAYERS = "light by layers"
     FRAGMENT = "the fragment pipeline"
     INDEPENDENT = "the independent sampler"
-    NET = "--sampler net"
     SHARED = "--sampler shared"
     ADAPTIVE = "--adaptive on"
     CLASSIC = "a classic lighting model"
@@ -60,7 +59,6 @@ MEANINGS: dict[Way, str] = {
     Way.LAYERS: "a picture relit in the window, and the window's film",
     Way.FRAGMENT: "`--pipeline fragment`, for OpenGL 4.1",
     Way.INDEPENDENT: "`--sampler independent`",
-    Way.NET: "`--sampler net`: nets over all samples of a pixel",
     Way.SHARED: "`--sampler shared`: random numbers that pixels share",
     Way.ADAPTIVE: "`--adaptive on`: samples in proportion to the noise of pixels",
     Way.CLASSIC: "`--method phong`, `blinn`, `whitted`, `whitted_tree`, `cook`",
@@ -93,12 +91,11 @@ _WORKS: dict[Way, tuple[Way, ...]] = {
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.FRAGMENT),
         Way.TERMS,
     ),
-    Way.NET: (Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.LAYERS),
     Way.SHARED: (Way.RESUME, Way.PART, Way.MERGED),
     Way.ADAPTIVE: (Way.RESUME, Way.INDEPENDENT),
     Way.CLASSIC: (
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.FRAGMENT),
-        *(Way.TERMS, Way.INDEPENDENT, Way.NET),
+        *(Way.TERMS, Way.INDEPENDENT),
     ),
     Way.PROBES: (Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.TERMS),
     Way.REUSE: (Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.PROBES),
@@ -108,7 +105,7 @@ _WORKS: dict[Way, tuple[Way, ...]] = {
     ),
     Way.MARCH: (
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.FRAGMENT),
-        *(Way.TERMS, Way.INDEPENDENT, Way.NET),
+        *(Way.TERMS, Way.INDEPENDENT),
     ),
     Way.PARTICLES: (
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.INDEPENDENT),
@@ -117,7 +114,7 @@ _WORKS: dict[Way, tuple[Way, ...]] = {
     Way.PILOT: (
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.LAYERS, Way.FRAGMENT),
         *(Way.TERMS, Way.INDEPENDENT, Way.CLASSIC, Way.PROBES, Way.REUSE, Way.HYBRID),
-        *(Way.MARCH, Way.NET, Way.SHARED, Way.ADAPTIVE),
+        *(Way.MARCH, Way.SHARED, Way.ADAPTIVE),
     ),
     Way.DENOISE: (
         *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
@@ -128,36 +125,33 @@ _WORKS: dict[Way, tuple[Way, ...]] = {
     Way.TIME: (
         *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
         *(Way.CLASSIC, Way.PROBES, Way.REUSE, Way.PARTICLES, Way.PILOT, Way.DENOISE, Way.AUTO),
-        *(Way.TERMS, Way.HYBRID, Way.MARCH, Way.NET, Way.SHARED, Way.ADAPTIVE),
+        *(Way.TERMS, Way.HYBRID, Way.MARCH, Way.SHARED, Way.ADAPTIVE),
     ),
     Way.ERROR: (
         *(Way.CROP, Way.RESUME, Way.AOV, Way.LAYERS, Way.FRAGMENT, Way.INDEPENDENT),
         *(Way.CLASSIC, Way.PROBES, Way.REUSE, Way.PARTICLES, Way.PILOT, Way.DENOISE, Way.AUTO),
-        *(Way.TERMS, Way.TIME, Way.HYBRID, Way.MARCH, Way.NET, Way.SHARED, Way.ADAPTIVE),
+        *(Way.TERMS, Way.TIME, Way.HYBRID, Way.MARCH, Way.SHARED, Way.ADAPTIVE),
     ),
     Way.SHUTTER: (
         *(Way.CROP, Way.RESUME, Way.PART, Way.MERGED, Way.AOV, Way.TERMS, Way.FRAGMENT),
         *(Way.CLASSIC, Way.HYBRID, Way.MARCH, Way.PILOT, Way.DENOISE, Way.TIME, Way.ERROR),
     ),
     Way.CLUSTER: (
-        *(Way.CROP, Way.AOV, Way.TERMS, Way.FRAGMENT, Way.INDEPENDENT, Way.NET, Way.CLASSIC),
+        *(Way.CROP, Way.AOV, Way.TERMS, Way.FRAGMENT, Way.INDEPENDENT, Way.CLASSIC),
         *(Way.HYBRID, Way.MARCH, Way.PILOT, Way.SHUTTER),
     ),
 }
 
 _LENGTH = "which samples a part has follows from their number in all: give --samples"
-_BLOCKS = "it goes by blocks of samples, which a net lacks: use --sampler sobol"
 _EQUAL = "it needs equal counts of samples in all pixels: leave out --adaptive"
 _UNPROVEN = "--adaptive is proven for paths by compute shaders alone: leave it out"
-_OF_EQUAL = (Way.PART, Way.MERGED, Way.AOV, Way.TERMS, Way.LAYERS, Way.DENOISE, Way.NET)
-_OF_BLOCKS = (Way.AOV, Way.TERMS, Way.PROBES, Way.REUSE, Way.HYBRID, Way.PARTICLES, Way.DENOISE)
+_OF_EQUAL = (Way.PART, Way.MERGED, Way.AOV, Way.TERMS, Way.LAYERS, Way.DENOISE)
 _METHODS = (Way.CLASSIC, Way.PROBES, Way.REUSE, Way.HYBRID, Way.MARCH)
 _UNPROVEN_TOO = (*_METHODS, Way.FRAGMENT, Way.PARTICLES)
 _WITH_PROBES = {Way.PROBES, Way.REUSE}, {Way.PROBES, Way.HYBRID}  # methods that have probes
 _SHARED = "the 16 samples of a block share their probes, so that they are one observation"
 _REFUSED: dict[frozenset[Way], str] = {
     **{frozenset({way, Way.INDEPENDENT}): _SHARED for way in (Way.PROBES, Way.REUSE)},
-    **{frozenset({Way.NET, way}): _BLOCKS for way in (*_OF_BLOCKS, Way.AUTO)},
     **{
         frozenset(pair): "each is a method"
         for pair in combinations(_METHODS, 2)
@@ -171,8 +165,6 @@ _REFUSED: dict[frozenset[Way], str] = {
     **{frozenset({Way.ADAPTIVE, way}): _UNPROVEN for way in _UNPROVEN_TOO},
     frozenset({Way.ADAPTIVE, Way.CROP}): "counts follow from pixels beyond the crop, too",
     frozenset({Way.ADAPTIVE, Way.AUTO}): "it measures methods at equal samples: name a method",
-    frozenset({Way.FRAGMENT, Way.NET}): "a fragment shader writes to too few textures for a net",
-    frozenset({Way.INDEPENDENT, Way.NET}): "each is a sampler",
     frozenset({Way.MERGED, Way.RESUME}): "a plain render adds its samples in another order",
     frozenset({Way.LAYERS, Way.RESUME}): "the picture lacks the layers that it was summed from",
     frozenset({Way.LAYERS, Way.PART}): "a part holds the sum alone: save the scene and render that",
@@ -208,7 +200,6 @@ _REFUSED |= {
     frozenset({Way.SHUTTER, way}): f"{why}: close the shutter by `shutter = 0`"
     for way, why in {
         Way.INDEPENDENT: "its samples share no even times, so that all pixels would err alike",
-        Way.NET: "its samples share no even times, so that all pixels would err alike",
         Way.LAYERS: "the window's film shows one time",
         Way.PROBES: "probes hold the light of one time",
         Way.REUSE: "probes hold the light of one time",
@@ -286,7 +277,6 @@ def ways_of(settings: Settings, layering: Layering = "none") -> set[Way]:
         Way.TERMS: bool(settings.terms),
         Way.LAYERS: layering != "none" and not settings.terms,  # a plan with terms is not relit
         Way.INDEPENDENT: settings.sampler == "independent",
-        Way.NET: settings.sampler == "net",
         Way.SHARED: settings.division.is_shared,
         Way.ADAPTIVE: settings.adaptive == "on",
         Way.CLASSIC: METHODS[settings.method].model != 0,

@@ -215,12 +215,11 @@ class Needs:
         "roulette",
         reasons.roulette,
     )
-    has_net: bool = row(lambda it: it.settings.sampler == "net", most=False)  # that keep growing
     is_shared: bool = row(  # each second block has the same random numbers in all pixels
         lambda it: it.settings.division.is_shared, "shared numbers", reasons.sampler, most=False
     )
     adaptive: bool = row(lambda it: it.adapts, "own counts", reasons.adaptive, most=False)
-    block: int = row(  # samples of a block: 16 or 64 of Sobol's points, 1 of random numbers
+    block: int = row(  # samples of a block: 16 or more of Sobol's points, 1 of random numbers
         lambda it: it.settings.division.points,
         "Sobol points",
         reasons.sampler,

@@ -10,7 +10,6 @@ NOT_SHARED: dict[str, str] = {  # by name of the option in `Way`
     "LAYERS": _ALIKE,
     "FRAGMENT": "a fragment shader writes to too few textures for it",
     "INDEPENDENT": "each is a sampler",
-    "NET": "each is a sampler",
     "ADAPTIVE": "it needs equal counts of samples in all pixels: leave out --adaptive",
     "CLASSIC": _PROVEN,
     "PROBES": _PROVEN,

@@ -12,14 +12,13 @@ from glrt.gpu.program import Resource
 from glrt.gpu.structs import read_constants
 from glrt.image.allotment import NO_COUNTS, NO_SHARES, Counts
 from glrt.image.film_state import FilmState, error_of_mean
-from glrt.image.net_channels import NO_NET
+from glrt.image.group_channels import NO_GROUPS
 from glrt.rendering.pass_film import Array, PassFilm, Size
 from glrt.rendering.pipelines import RESERVOIRS
 from glrt.settings import Settings
 
 BAND_PIXELS = 1 << 17  # pixels read at a time: 2 MiB of a texture
 _RESERVOIRS = read_constants(read("probes/reservoir.glsl"))
-NET_COLUMNS = read_constants(read("film/net.glsl"))["NET_COLUMNS"]  # scrambles side by side
 COLUMNS, ROWS = (_RESERVOIRS[f"{name}_OF_RESERVOIR"] for name in ("COLUMNS", "ROWS"))  # texels
 
 
@@ -31,14 +30,14 @@ class Extent(NamedTuple):
     block: int = 1  # samples per observation
     layers: int = 0
     reservoirs: bool = False  # whether samples keep light points for later ones
-    scrambles: int = 0  # independent nets that the samples fill, or groups of shared numbers
+    groups: int = 0  # of shared numbers
     points: int = 0  # successive samples of such a group; 0 without
 
     @classmethod
     def of(cls, settings: Settings, layers: int, reservoirs: bool) -> "Extent":
         """The extent of a film for settings."""
         division = settings.division
-        groups = division.scrambles, division.points if division.is_shared else 0
+        groups = division.groups, division.points if division.is_shared else 0
         return cls(*settings.size, settings.block, layers, reservoirs, *groups)
 
 
@@ -52,21 +51,21 @@ class Exposure(NamedTuple):
     part: Array  # mean of the samples after the last complete observation
     share: Array  # (H, W): fraction of the finite samples that is in `part`
     layers: Array  # (2, layers, H, W, 4): radiance and samples, by halves of observations
-    net: Array = NO_NET  # (scrambles, H, W, 4): radiance and samples, by scrambles
+    groups: Array = NO_GROUPS  # (groups, H, W, 4): radiance and samples, of shared numbers
 
     def state(self, samples: int) -> FilmState:
         """The film state, without mean and layers; each pixel has `samples`."""
         begun = np.rint(self.share * (samples - self.dropped))
         parts = self.variance, self.dropped, self.observations, self.part, begun
-        return FilmState(*parts, self.net if len(self.net) else NO_NET)
+        return FilmState(*parts, self.groups if len(self.groups) else NO_GROUPS)
 
 
 class Film(PassFilm):
     """Pairs of RGBA32F textures for mean and variance: a dispatch reads one, writes the other.
 
-    If an observation takes more than one sample, another pair holds the incomplete observation, or
-    the means of all scrambles of a net. Groups of shared numbers have a texture each. A dispatch
-    adds to one of them: it writes a spare one, which takes the place of the group's.
+    If an observation takes more than one sample, another pair holds the incomplete observation.
+    Groups of shared numbers have a texture each. A dispatch adds to one of them: it writes a spare
+    one, which takes the place of the group's.
     Layers of light have a pair, with separate sums for two halves of the observations. Reservoirs
     have a pair too (shaders_glsl/probes/reservoir.glsl).
     """
@@ -153,7 +152,7 @@ class Film(PassFilm):
         width, height = self.size
         self.sources["block"].write(np.zeros((height, width, 4), np.float32))
         try:
-            for _ in range(self.extent.scrambles):
+            for _ in range(self.extent.groups):
                 self._groups.append(self._texture(self.size))
         except RenderError:
             self.release()
@@ -163,7 +162,7 @@ class Film(PassFilm):
     def _group(self) -> int:
         """The group of shared numbers that the next sample belongs to."""
         points = self.extent.points
-        return self.next_sample // points % self.extent.scrambles if points else 0
+        return self.next_sample // points % self.extent.groups if points else 0
 
     def read(self, rows: slice = slice(None)) -> Exposure:
         """Copy the film or some of its rows into memory; RenderError if it has no samples."""
@@ -173,7 +172,7 @@ class Film(PassFilm):
         begun = self._read_begun(mean[..., 3], first, end)
         dropped = self.taken(rows) - mean[..., 3]
         parts = mean[..., :3], variance[..., :3], dropped, variance[..., 3], *begun
-        kept = self._read_layers(first, end), self._read_net(first, end)
+        kept = self._read_layers(first, end), self._read_groups(first, end)
         copies = (part.copy() for part in (*parts, *kept))
         return Exposure(*copies)
 
@@ -209,12 +208,10 @@ class Film(PassFilm):
             "block": np.dstack([film_state.part, film_state.begun]),
         }
         if self.extent.points:
-            for texture, means in zip(self._groups, film_state.net, strict=True):
+            for texture, means in zip(self._groups, film_state.groups, strict=True):
                 texture.write(np.ascontiguousarray(means))
-            self._held = {k for k, it in enumerate(film_state.net) if it[..., 3].any()}
+            self._held = {k for k, it in enumerate(film_state.groups) if it[..., 3].any()}
             del rows["block"]
-        elif len(film_state.net):
-            rows["block"] = _tiled(film_state.net)
         for name in self.sources.keys() & rows:
             self.sources[name].write(np.ascontiguousarray(rows[name], np.float32))
 
@@ -231,20 +228,16 @@ class Film(PassFilm):
     def _read_begun(self, finite: Array, first: int, end: int) -> tuple[Array, Array]:
         """Mean of the incomplete observation, and its share of the `finite` samples per pixel."""
         is_whole = self.counts.size or self.samples % self.extent.block == 0
-        if self.extent.scrambles or is_whole:
+        if self.extent.groups or is_whole:
             return np.zeros((*finite.shape, 3), np.float32), np.zeros_like(finite)
         begun = self.read_output("block", first, end)
         return begun[..., :3], np.asarray(begun[..., 3] / np.maximum(finite, 1), np.float32)
 
-    def _read_net(self, first: int, end: int) -> Array:
-        """The means of scrambles, `_tiled` turned round."""
-        (width, height), count = self.size, self.extent.scrambles
-        if self.extent.points:
-            return np.array([self._read_group(number, first, end) for number in range(count)])
-        tops = range(0, count // NET_COLUMNS * height, height)
-        found = [self.read_output("block", up + first, up + end) for up in tops]
-        wide = np.array(found, np.float32).reshape(len(tops), end - first, NET_COLUMNS, width, 4)
-        return wide.swapaxes(1, 2).reshape(count, end - first, width, 4)
+    def _read_groups(self, first: int, end: int) -> Array:
+        """The means of groups of shared numbers, (groups, rows, width, 4)."""
+        groups = range(self.extent.groups)
+        found = [self._read_group(number, first, end) for number in groups]
+        return np.array(found, np.float32) if found else NO_GROUPS
 
     def _read_group(self, number: int, first: int, end: int) -> Array:
         """The means of a group of shared numbers, (rows, width, 4)."""
@@ -259,19 +252,11 @@ class Film(PassFilm):
         return np.stack(halves).reshape(2, end - first, count, width, 4).swapaxes(1, 2)
 
 
-def _tiled(net: Array) -> Array:
-    """The means of scrambles as their texture holds them, NET_COLUMNS side by side."""
-    count, height, width, _ = net.shape
-    rows = net.reshape(count // NET_COLUMNS, NET_COLUMNS, height, width, 4).swapaxes(1, 2)
-    return np.ascontiguousarray(rows).reshape(-1, NET_COLUMNS * width, 4)
-
-
 def _outputs(extent: Extent) -> dict[str, Size]:
     """The textures of a film and their sizes."""
-    width, height, block, layers, has_reservoirs, scrambles, points = extent
+    width, height, block, layers, has_reservoirs, _, _ = extent
     sizes = dict.fromkeys(("mean", "variance"), (width, height))
-    columns, rows = (NET_COLUMNS, scrambles // NET_COLUMNS) if scrambles and not points else (1, 1)
-    sizes |= {"block": (columns * width, rows * height)} if block > 1 else {}
+    sizes |= {"block": (width, height)} if block > 1 else {}
     sizes |= {"reservoirs": (COLUMNS * width, ROWS * height)} if has_reservoirs else {}
     return sizes | ({"layers": (layers * width, 2 * height)} if layers else {})
 

@@ -40,7 +40,7 @@ def mixed(film: Film, weights: Weights) -> tuple[Array, Array, FilmState | None]
     width, height = film.size
     radiance, error = np.empty((2, height, width, 3), np.float32)
     is_all = are_trivial(weights) and not film.extent.layers
-    film_state = empty_state(height, width, film.extent.scrambles) if is_all else None
+    film_state = empty_state(height, width, film.extent.groups) if is_all else None
     for rows in film.bands():
         exposure = film.read(rows)
         radiance[rows], error[rows] = _mixed(exposure, weights)

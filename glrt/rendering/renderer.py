@@ -225,7 +225,7 @@ class Renderer(Progress):
             aovs = self._tracer.aov_images()
             mean, noise, state = mixed(self.film, weights)
             if state and self.settings.division.is_shared:
-                mean, noise = shared_numbers.picture(mean, state.net, aovs)
+                mean, noise = shared_numbers.picture(mean, state.groups, aovs)
             waiting = self._tracer.with_particles(mean, noise, weights, waits=True)
         radiance, stderr, films = waiting
         return Image(radiance, stderr, self.samples, self._recipe(weights), state, aovs, films)

@@ -16,7 +16,7 @@ Layers empty_layers() {
 // Adds the light of the sample number `index` by layers.
 void add_layers(inout Layers layers, Path path, int index) {
     if (!is_finite(path.radiance)) return;
-    int side = (HAS_NET ? index : index / BLOCK) % 2;  // scrambles of a net are observations
+    int side = index / BLOCK % 2;
     layers.counts[side] += 1.0;
     for (int i = 0; i < 2 * LAYERS; i += 1) {
         if (i / DIVISOR != side) continue;

@@ -35,8 +35,7 @@ int add_samples(inout Pixel pixel, inout Layers layers, ivec2 place, int first) 
         if (MODEL == WHITTED_TREE && !loop_was_cut && take_branch(path)) continue;
         if (loop_was_cut) break;
         end_resampling(path, place, index);
-        if (HAS_NET) add_to_net(pixel, value_of(path), index);
-        else add_sample(pixel, value_of(path), index);
+        add_sample(pixel, value_of(path), index);
         if (LAYERS > 0) add_layers(layers, path, index);
         if (LIGHT_TERMS != 0) add_terms(path, index);
         index += 1;

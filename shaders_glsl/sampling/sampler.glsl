@@ -2,17 +2,16 @@
 // size and refreshes it every frame; here it is hashed from the pixel. The dimension counts the
 // numbers drawn.
 //
-// The numbers are independent or, where BLOCK is above 1, points of a net of BLOCK points (16:
-// sampling/sobol.glsl, 64: sampling/sobol64.glsl). Each block of BLOCK samples has its own scramble.
-// Where HAS_NET, samples are dealt out in turn to BLOCK nets that keep growing (sampling/net.glsl). Where IS_SHARED, each
-// even block has the same numbers in all pixels. Particles, whose places are below 0, always have their own.
+// The numbers are independent or, where BLOCK is above 1, points of a net of BLOCK points (16: sampling/sobol.glsl,
+// more: sampling/net.glsl). Each block of BLOCK samples has its own scramble. Where IS_SHARED, each even block has the
+// same numbers in all pixels. Particles, whose places are below 0, always have their own.
 
 const uint STEP = 0x9E3779B9u;  // from one dimension to the next
 
 struct Sampler {
     uint seed;
     uint dimension;
-    uint block;  // seed of the block, or of the net
+    uint block;  // seed of the block
     uint point;  // number of the sample in it
 };
 
@@ -31,11 +30,7 @@ Sampler make_sampler(uint seed) {
 Sampler sampler_at(ivec2 pixel, int index, uint seed) {
     if (IS_SHARED && pixel.y >= 0 && index / BLOCK % 2 == 0) pixel = ivec2(0);
     Sampler rng = make_sampler(pixel_seed(pixel, index, seed));
-    if (HAS_NET) {
-        int number = index / BLOCK;  // a net that is full is followed by another
-        rng.block = pixel_seed(pixel, index % BLOCK + number / NET_POINTS * BLOCK, ~seed);
-        rng.point = uint(number % NET_POINTS);
-    } else if (BLOCK > 1) {
+    if (BLOCK > 1) {
         rng.block = pixel_seed(pixel, index / BLOCK, ~seed);  // differs from the seeds of all samples
         rng.point = uint(index % BLOCK);
     }
@@ -53,23 +48,13 @@ float next_independent(inout Sampler self) {
     return unit_float(pcg_hash(self.seed ^ self.dimension));
 }
 
-// The same as next_sobol, for blocks of 64.
-vec2 next_of_64(Sampler self, uint first, bool last) {
-    uint index = sobol_order_64(self.point, pcg_hash(self.block ^ first));
-    uvec2 point = sobol_point_64(index, last);
-    uint random = pcg_hash(~self.block ^ self.dimension);
-    point.x = scrambled(point.x, random, random >> 8u);
-    point.y = scrambled(point.y, random >> 16u, random >> 24u);
-    return sobol_place_64(point, pcg_hash(self.seed ^ self.dimension));
-}
-
-// The same for nets.
+// The same as next_sobol, for blocks of 64 samples or more.
 vec2 next_of_net(Sampler self, uint first, bool last) {
     uvec2 point = net_point(net_order(self.point, pcg_hash(self.block ^ first)), last);
-    uint x = pcg_hash(~self.block ^ self.dimension);
-    uint y = pcg_hash(x);
-    point.x = scrambled(point.x, x, x >> 16u);
-    point.y = scrambled(point.y, y, y >> 16u);
+    uint random = pcg_hash(~self.block ^ self.dimension);
+    uint more = BLOCK > 256 ? pcg_hash(random) : random >> 16u;  // 32 bits are those of two scrambles of 8 digits
+    point.x = scrambled(point.x, random, random >> (BLOCK > 256 ? 16u : 8u));
+    point.y = scrambled(point.y, more, more >> (BLOCK > 256 ? 16u : 8u));
     return net_place(point, pcg_hash(self.seed ^ self.dimension));
 }
 
@@ -78,8 +63,7 @@ vec2 next_sobol(inout Sampler self) {
     self.dimension += STEP;
     bool last = (self.dimension & 1u) == 0u;  // STEP is odd: true for every second draw
     uint first = last ? self.dimension - STEP : self.dimension;
-    if (HAS_NET) return next_of_net(self, first, last);
-    if (BLOCK > 16) return next_of_64(self, first, last);
+    if (BLOCK > 16) return next_of_net(self, first, last);
     uint index = owen_scramble(self.point, pcg_hash(self.block ^ first));
     uvec2 cell = sobol_cell(index, last, pcg_hash(~self.block ^ self.dimension));
     return sobol_place(cell, pcg_hash(self.seed ^ self.dimension));

@@ -62,7 +62,6 @@ def test_the_choice_follows_the_rule_for_ties_that_it_states(work: float, chosen
     [
         ("sobol", 0.5, "with 32 samples (16 would do, but 32 are the fewest with a known error);"),
         ("sobol", 0.1, "with 112 samples;"),
-        ("net", 0.5, "with 8 samples;"),
         ("independent", 0.9, "with 2 samples;"),
     ],
 )

@@ -1,4 +1,4 @@
-"""`--sampler auto`: blocks of 64 samples for long renders, where nothing else is asked for."""
+"""`--sampler auto`: long blocks for long renders, where nothing else is asked for."""
 
 from pathlib import Path
 
@@ -7,7 +7,7 @@ import pytest
 from glrt import merge
 from glrt.cli.commands import parse, run
 from glrt.cli.request import order
-from glrt.cli.sampler import BY_LENGTH, LEAST
+from glrt.cli.sampler import LEAST, by_length
 from glrt.gpu.context import Context
 from glrt.image.image import Image, read_recipe
 from tests.shaders.test_sobol import lit
@@ -33,7 +33,7 @@ def _folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_long_renders_have_blocks_of_64_and_short_ones_of_16(context: Context) -> None:
-    assert chosen(*LONG) == ("sobol64", BY_LENGTH)
+    assert chosen(*LONG) == ("sobol64", by_length("sobol64"))
     image = rendered(lit(), context, LEAST, sampler="sobol64", width=8, height=6)
     assert same(Image.load("out.exr"), image)
     assert chosen(*SCENE, "--samples", str(LEAST - 1)) == ("sobol", None)
@@ -51,6 +51,12 @@ def test_long_renders_have_blocks_of_64_and_short_ones_of_16(context: Context) -
         (["--method", "phong"], "sobol"),
         (["--part", "3/8"], "sobol64"),
         (["--part", "3/9"], "sobol"),
+        (["--samples", "2047"], "sobol64"),
+        (["--samples", "2048"], "sobol256"),
+        (["--samples", "2048", "--part", "1/9"], "sobol64"),
+        (["--samples", "8191"], "sobol256"),
+        (["--samples", "8192"], "sobol1024"),
+        (["--samples", "100000", "--error", "0.9"], "sobol"),
     ],
 )
 def test_it_is_chosen_only_where_it_is_left_open(words: list[str], sampler: str) -> None:
@@ -72,7 +78,7 @@ def test_a_picture_keeps_the_sampler_that_it_began_with(
     assert chosen(*LONG, file="long.exr")[0] == "sobol64"
     assert chosen("--resume", "long.exr", "--samples", str(2 * LEAST))[0] == "sobol64"
     assert "as the picture began" not in capsys.readouterr().err
-    assert chosen("long.exr", "--samples", "64", "--quiet") == ("sobol64", BY_LENGTH)
+    assert chosen("long.exr", "--samples", "64", "--quiet") == ("sobol64", by_length("sobol64"))
 
 
 def test_parts_choose_as_the_whole_does() -> None:

@@ -78,7 +78,6 @@ REFUSED = [pair for pair in pairs() if not works(*pair)]
     "light by layers---*",
     "a classic lighting model---*",
     "the independent*---*",
-    "--sampler net-*",
     "--sampler shared-*",
 )
 @pytest.mark.slow_cases("*--adaptive on*", "the fragment pipeline---cluster*")
@@ -113,7 +112,6 @@ NEVER_ASKED = [  # no command line does
     *({Way.HYBRID, other} for other in (Way.AUTO, Way.CLASSIC, Way.REUSE)),
     *({Way.MARCH, it} for it in (Way.AUTO, Way.CLASSIC, Way.PROBES, Way.REUSE, Way.HYBRID)),
     {Way.PARTICLES, Way.PILOT},
-    *({one, it} for one, it in ((Way.INDEPENDENT, Way.NET), (Way.NET, Way.SHARED))),
     {Way.INDEPENDENT, Way.SHARED},
     {Way.LAYERS, Way.SHUTTER},
 ]

@@ -58,7 +58,7 @@ def all_scenes() -> list[Scene]:
     return [*found, everything(), crowd(40), crowd(200), crowd(3000)]
 
 
-SAMPLERS = [name for name, it in DIVISIONS.items() if not it.scrambles]  # with all methods
+SAMPLERS = [name for name, it in DIVISIONS.items() if not it.is_shared]  # with all methods
 TRACING = [name for name, traits in METHODS.items() if not traits.rasters]  # with media, too
 
 

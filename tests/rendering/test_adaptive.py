@@ -1,6 +1,6 @@
 """Pictures by `adaptive = on`: pixels have counts of their own, and the bits of any render.
 
-All use one scene and share a kernel with each other and with tests/rendering/test_nets.py.
+All use one scene and share a kernel with each other and with tests/rendering/test_shared.py.
 """
 
 from pathlib import Path
@@ -17,7 +17,7 @@ from glrt.image.image import Image
 from glrt.rendering.renderer import Renderer
 from glrt.rendering.schedule import HEADLESS
 from glrt.settings import Settings
-from tests.rendering.test_nets import ROOM
+from tests.rendering.test_shared import ROOM
 from tests.support.images import same_bits
 from tests.support.renders import assert_agree, same
 
@@ -166,7 +166,7 @@ def test_adaptive_pictures_are_compared_by_their_errors(context: Context) -> Non
 def test_what_adaptive_sampling_does_not_go_with_is_refused_by_name(context: Context) -> None:
     for settings in (
         *({"crop": (0, 0, 9, 9)}, {"denoise": "nlm"}, {"aov": ("albedo",)}, {"method": "ddgi"}),
-        *({"sampler": "net"}, {"caustics": "on"}, {"part": (1, 2)}, {"layering": "groups"}),
+        *({"sampler": "shared"}, {"caustics": "on"}, {"part": (1, 2)}, {"layering": "groups"}),
         {"pipeline": "fragment"},
     ):
         with pytest.raises(UsageError, match="--adaptive on"):

@@ -92,7 +92,7 @@ def test_the_renders_use_every_feature() -> None:
     assert found["lamps"] == set(SAMPLED)
 
 
-@pytest.mark.slow_cases("by constants", "by nets", "by own counts", "by shared numbers*")
+@pytest.mark.slow_cases("by constants", "by long blocks", "by own counts", "by shared numbers*")
 @pytest.mark.slow_cases("caustics", "shared places", "hazy", "hazy by *", "drawn", "mapped")
 @pytest.mark.parametrize("name", RENDERS)
 def test_the_kernel_of_a_profile(software: Context, usual: Image, name: str) -> None:
@@ -108,7 +108,7 @@ WAYS = [  # a crowd has too many shapes to be baked; some lack a fragment shader
         (name, "pipeline", "fragment")
         for name in RENDERS
         if name
-        not in ("caustics", "shared places", "by nets", "by own counts", "by shared numbers")
+        not in ("caustics", "shared places", "by long blocks", "by own counts", "by shared numbers")
     ),
 ]
 
@@ -116,7 +116,7 @@ WAYS = [  # a crowd has too many shapes to be baked; some lack a fragment shader
 @pytest.mark.slow_cases(
     *("by constants-tier-complete", "by constants-pipeline-fragment"),
     *("drawn-tier-complete", "drawn-pipeline-fragment"),
-    *("hazy by *", "by nets-tier-complete", "by shared numbers-*"),
+    *("hazy by *", "by long blocks-tier-complete", "by shared numbers-*"),
     *("by own counts-tier-complete", "caustics-tier-complete", "shared places-tier-complete"),
     *("hazy-pipeline-fragment", "mapped-pipeline-fragment"),
 )

@@ -219,15 +219,6 @@ def test_a_film_too_large_for_the_driver_is_refused(ctx: moderngl.Context) -> No
         Film(ctx, Extent(1_000_000, 1))
 
 
-def test_nets_that_lie_next_to_each_other_are_refused_in_too_wide_a_film(
-    ctx: moderngl.Context,
-) -> None:
-    widest = ctx.info["GL_MAX_TEXTURE_SIZE"] // 4
-    Film(ctx, Extent(widest, 1, 8, scrambles=8)).release()
-    with pytest.raises(RenderError, match=r"takes a texture of .* x 2 texels.*--crop"):
-        Film(ctx, Extent(widest + 1, 1, 8, scrambles=8))
-
-
 # --- standard error ------------------------------------------------------------------------
 
 

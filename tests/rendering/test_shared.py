@@ -18,12 +18,15 @@ from glrt.image.shared_numbers import combined
 from glrt.rendering.renderer import Renderer
 from glrt.samplers import GROUPS
 from glrt.settings import Settings
-from tests.rendering.test_nets import ROOM
-from tests.support.builders import sphere
+from tests.support.builders import MATTE, lamp, quad, scene_of, sphere
 from tests.support.images import same_bits
 from tests.support.particle_rooms import room
 from tests.support.renders import assert_agree, same
 
+ROOM = scene_of(
+    [sphere([0, 0, -3], 1, "matte"), quad([-1, 2, -4], [2, 0, 0], [0, 0, 2], "lamp")],
+    {"matte": MATTE, "lamp": lamp(9.0)},
+)
 SIZE: dict[str, Any] = {"width": 40, "height": 36, "sampler": "shared", "bounces": 3}
 
 
@@ -117,10 +120,10 @@ def test_particles_are_a_film_of_their_own(context: Context, tmp_path: Path) -> 
 def test_even_groups_have_the_same_numbers_in_all_pixels(picture: Image) -> None:
     """In a tile of the ball, pixels of C err alike: the means of their groups lie apart."""
     assert picture.film_state is not None
-    net = picture.film_state.net
-    assert net.shape == (GROUPS, 36, 40, 4)
-    assert [int(count) for count in net[:, 0, 0, 3]] == [48] * 5 + [40] + [32] * 10
-    tile = net[:, 14:18, 18:22, :3].mean(axis=-1).reshape(GROUPS, -1).astype(np.float64)
+    groups = picture.film_state.groups
+    assert groups.shape == (GROUPS, 36, 40, 4)
+    assert [int(count) for count in groups[:, 0, 0, 3]] == [48] * 5 + [40] + [32] * 10
+    tile = groups[:, 14:18, 18:22, :3].mean(axis=-1).reshape(GROUPS, -1).astype(np.float64)
     assert (picture.aovs["object"].value[14:18, 18:22] == 1).all()
     apart = tile - tile.mean(axis=0)
     of_tiles = np.abs(apart.mean(axis=1)) / apart.std(axis=1) * np.sqrt(16)
@@ -154,14 +157,14 @@ def test_below_a_whole_block_the_error_is_unknown(context: Context) -> None:
     image = taken(context, 240)
     assert image.error is None
     assert image.film_state is not None
-    counts = image.film_state.net[..., 3:].astype(np.float64)
-    mean = (image.film_state.net[..., :3] * counts).sum(axis=0) / 240
+    counts = image.film_state.groups[..., 3:].astype(np.float64)
+    mean = (image.film_state.groups[..., :3] * counts).sum(axis=0) / 240
     np.testing.assert_allclose(image.radiance, mean, rtol=1e-5, atol=1e-6)
 
 
 def test_the_picture_follows_from_its_file(picture: Image) -> None:
     assert picture.film_state is not None
-    again = combined(picture.film_state.net, picture.aovs["object"].value)
+    again = combined(picture.film_state.groups, picture.aovs["object"].value)
     assert same_bits(again.radiance, picture.radiance)
 
 

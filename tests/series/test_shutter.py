@@ -225,7 +225,6 @@ def test_the_command_renders_the_blurred_frame(
         ({"method": "ddgi"}, "probes hold the light of one time"),
         ({"caustics": "on"}, "particles are followed for many samples at once"),
         ({"sampler": "independent"}, "all pixels would err alike"),
-        ({"sampler": "net"}, "all pixels would err alike"),
     ],
 )
 def test_what_shows_one_time_is_refused(settings: dict[str, Any], reason: str) -> None:

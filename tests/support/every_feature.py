@@ -193,6 +193,6 @@ RENDERS: dict[str, tuple[Scene, dict[str, Any]]] = {
     "hazy by steps": (hazy(), {"method": "march", "march_step": 0.1}),
     "drawn": (mapped(), {"method": "hybrid", "effects": TRACED}),
     "by own counts": (still_life(), {"method": "mis", "adaptive": "on"}),
-    "by nets": (still_life(), {"method": "mis", "sampler": "net"}),
+    "by long blocks": (still_life(), {"method": "mis", "sampler": "sobol1024"}),
     "by shared numbers": (still_life(), {"method": "mis", "sampler": "shared"}),
 }

@@ -36,8 +36,9 @@ def test_the_first_frames_announce_the_kernel(session: Session) -> None:
 def test_the_film_of_the_window_has_the_samples_of_each_pixel_alone() -> None:
     """So a picture whose pixels share random numbers opens with others, and the list lacks them."""
     assert plain(Settings(sampler="shared")).sampler == "sobol"
-    assert plain(Settings(sampler="net")).sampler == "net"
-    assert SETTINGS["sampler"].choices == ("sobol", "sobol64", "net", "independent")
+    assert plain(Settings(sampler="sobol256")).sampler == "sobol256"
+    others = ("sobol", "sobol64", "sobol256", "sobol1024", "independent")
+    assert SETTINGS["sampler"].choices == others
 
 
 def test_edits_of_a_frame_cost_one_restart(session: Session) -> None:

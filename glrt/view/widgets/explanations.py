@@ -26,8 +26,8 @@ EXPLANATIONS: dict[str, str] = {
     "sampler": (
         "Where the random numbers of a sample come from. independent: noise falls as 1 / sqrt(N). "
         "sobol: the samples of a pixel complete each other (scrambled Sobol' points), 16 at a "
-        "time, so that it falls faster where light is smooth; sobol64: 64 at a time. The mean is "
-        "the same."
+        "time, so that it falls faster where light is smooth; sobol64, sobol256 and sobol1024: so "
+        "many at a time. The mean is the same."
     ),
     "roulette": (
         "A path whose throughput is low ends with a chance of 1 - q, and one that goes on counts "
