@@ -23,7 +23,7 @@ def with_sampler(arguments: argparse.Namespace, settings: Settings) -> Settings:
 
 
 def sampler_for(samples: int, parts: int = 1) -> Sampler:
-    """Return the sampler with the largest blocks of which there are BLOCKS, and one a part."""
+    """Return the sampler with the largest blocks that fit BLOCKS times, and once in each part."""
     fits = (it for it in LONG if samples >= max(BLOCKS, parts) * DIVISIONS[it].block)
     return max(fits, key=lambda it: DIVISIONS[it].block, default="sobol")
 

@@ -7,7 +7,7 @@ import pytest
 from glrt import merge
 from glrt.cli.commands import parse, run
 from glrt.cli.request import order
-from glrt.cli.sampler import LEAST, by_length
+from glrt.cli.sampler import LEAST, by_length, sampler_for
 from glrt.gpu.context import Context
 from glrt.image.image import Image, read_recipe
 from tests.shaders.test_sobol import lit
@@ -32,7 +32,7 @@ def _folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     lit().save("lit.toml")
 
 
-def test_long_renders_have_blocks_of_64_and_short_ones_of_16(context: Context) -> None:
+def test_long_renders_have_long_blocks_and_short_ones_have_16(context: Context) -> None:
     assert chosen(*LONG) == ("sobol64", by_length("sobol64"))
     image = rendered(lit(), context, LEAST, sampler="sobol64", width=8, height=6)
     assert same(Image.load("out.exr"), image)
@@ -62,6 +62,11 @@ def test_long_renders_have_blocks_of_64_and_short_ones_of_16(context: Context) -
 def test_it_is_chosen_only_where_it_is_left_open(words: list[str], sampler: str) -> None:
     arguments = parse(["render", *LONG, *words, "-o", "out.exr"])
     assert order(arguments).settings.sampler == sampler
+
+
+def test_each_part_of_a_render_has_a_whole_block() -> None:
+    found = [sampler_for(2048, parts) for parts in (1, 8, 9, 32, 33)]
+    assert found == ["sobol256", "sobol256", "sobol64", "sobol64", "sobol"]
 
 
 def test_a_picture_keeps_the_sampler_that_it_began_with(
