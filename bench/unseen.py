@@ -4,6 +4,7 @@ Every change of glrt/ or shaders_glsl/ draws other scenes of `bench.landscapes`,
 tuned for. In each scene glrt and Mitsuba at its best (`bench.entries`) take turns with sixteen
 independent renders of their own. glrt has the blocks that `glrt render` takes for the samples to
 2 %, and particles where its pilot finds that they pay; the time of the pilot does not count.
+Multijittered samples of Mitsuba come in sets at least as large as glrt's blocks.
 Errors are relative RMS, about each renderer's own mean. Seconds to 2 % are extrapolated by t^-1/2,
 and the slope is checked by sixteen renders each of a quarter of the samples: scenes where one does
 not have it are listed apart, and are counted in a mean of their own.
@@ -126,7 +127,8 @@ def measure_scene(
         trial_level = level_of(peers, by_default(scene, small), LEVEL_SECONDS)
         own = by_default(scene, size, samples_to(TARGET_ERROR, peers, own, level))
     rival = best_mitsuba(commands, scene, small, trial_level)
-    rival = replace(rival, request=replace(rival.request, width=size, height=size))
+    sets = max(rival.block, own.block) if rival.block > 1 else 1  # as many that belong together
+    rival = replace(rival, request=replace(rival.request, width=size, height=size), block=sets)
     entries = own, rival
     alone = [pace_alone(commands, entry, seconds) for entry in entries]
     few, many = _runs(commands, entries, rounds, seconds)

@@ -26,24 +26,25 @@ from glrt.cli.options import (
     settings_given,
 )
 from glrt.cli.reports.cluster_report import crew_of
-from glrt.cli.reports.render_report import Done, Driver, Finished, report
+from glrt.cli.reports.render_report import Done, Driver, Finished, report, unreached
 from glrt.cli.reports.warnings import warn
 from glrt.cli.request import Order, frame_of, is_in_bands, opened, order
-from glrt.cli.sampler import kept
+from glrt.cli.sampler import BY_ERROR, kept, may_lengthen, sampler_to_error
 from glrt.cluster.clusters import check_installed
 from glrt.core.errors import RenderError, UsageError
 from glrt.core.text import counted
 from glrt.image.image import Image, check_writable
 from glrt.image.partition import parse_part
-from glrt.image.sources import check_not_scene
+from glrt.image.sources import check_not_scene, recipe_of
 from glrt.plan.combinations import Way, check
 from glrt.process import signals
 from glrt.process.command import fail, since_start
 from glrt.rendering.render_parts import render_parts
 from glrt.rendering.renderer import Renderer
-from glrt.rendering.stopping import Interruption, Limits, render_to_limit
+from glrt.rendering.stopping import Interruption, Limits, first_look, render_to_limit
 from glrt.scene.model_scene import is_model
 from glrt.scene.studio import studio_note
+from glrt.settings import settings_for
 
 DESCRIPTION = "Render a scene to files, without a window."
 EPILOG = (
@@ -167,6 +168,9 @@ def _render(
     start = time.perf_counter()
     with _watch(arguments, limits, autosave, begun) as watch:
         try:
+            longer = _lengthened(arguments, wanted, renderer, interruption, watch)
+            start += longer.seconds["compile"] if longer is not renderer else 0.0
+            renderer = longer
             image = _picture(renderer, wanted, interruption, watch)
         except RenderError as error:
             raise RenderError(f"{error} {autosave.advice}".strip()) from error
@@ -188,6 +192,34 @@ def _render(
         counts = image.samples, renderer.settings.division.least_known
         return fail(unreached(arguments.error, limits.error, estimate, *counts), 1)
     return 0
+
+
+def _lengthened(
+    arguments: argparse.Namespace,
+    wanted: Order,
+    renderer: Renderer,
+    interruption: Interruption,
+    watch: Watch,
+) -> Renderer:
+    """Return a renderer with longer blocks if `--error` takes many samples, else the same.
+
+    The samples of the first look are those of the same renderer, and lost to another.
+    """
+    limits, settings = wanted.limits, renderer.settings
+    is_new = wanted.begun is None and recipe_of(arguments.scene) is None
+    if limits.error is None or not is_new or not may_lengthen(arguments, settings):
+        return renderer
+    first = replace(limits, samples=first_look(limits, 0))
+    image = render_to_limit(renderer, first, interruption, watch)
+    if image is None or interruption.signal is not None:
+        return renderer
+    sampler = sampler_to_error(image, limits.error, limits.samples)
+    if sampler == settings.sampler:
+        return renderer
+    renderer.release()
+    decisions = {**wanted.decisions, "sampler": BY_ERROR}
+    longer = replace(wanted, settings=settings_for(settings, sampler=sampler), decisions=decisions)
+    return opened(longer, arguments)
 
 
 def _render_in_bands(
@@ -224,32 +256,6 @@ def _picture(
     if wanted.merged:
         return render_parts(renderer, wanted.merged, interruption, watch)
     return render_to_limit(renderer, wanted.limits, interruption, watch)
-
-
-def unreached(
-    wanted: float, noise: float, estimate: float | None, samples: int, least: int = 2
-) -> str:
-    """Return the message about an `--error` of `wanted` that was not reached.
-
-    `noise`: error that the method's bias leaves to noise; `least`: samples from which an error is
-    known.
-    """
-    after = f"after {counted(samples, 'sample')}"
-    if estimate is None and samples < least:
-        known = f"{least} samples" + (" (2 with --sampler independent)" if least > 2 else "")
-        found = f"{after} the error is not known, which takes at least {known}"
-    else:
-        shown = "unknown" if estimate is None else f"{estimate:.3g}"
-        found = f"it is {shown} {after}"
-        if noise < wanted:
-            found = (
-                "after subtracting the bias of the method, its noise must be at most "
-                f"{noise:.3g}; {found}"
-            )
-    return (
-        f"--error {wanted:g} was not reached: {found}. The picture is saved; give more --samples "
-        "or --time."
-    )
 
 
 def _signal_code(interruption: Interruption) -> int:

@@ -1,5 +1,6 @@
 """Render with limits: samples, seconds and error; the first one reached ends the render."""
 
+import math
 import signal
 import time
 from collections.abc import Callable, Iterator
@@ -9,16 +10,17 @@ from dataclasses import dataclass
 from glrt.image.image import Image
 from glrt.process.signals import handled
 from glrt.rendering.renderer import Renderer
-from glrt.settings import MAX_SAMPLES
+from glrt.settings import MAX_SAMPLES, Settings
 
 FIRST_LOOK = 64  # samples
+AHEAD = 1.02  # times the samples that a forecast takes, which it misses by about as much
 
 
 @dataclass(frozen=True)
 class Limits:
     """When to stop: `deadline` as a time of `time.perf_counter`, `error` as a fraction.
 
-    The error is checked at `first_look` samples per pixel and at each doubling.
+    The error is checked at `first_look` samples per pixel, and then as `look_after` says.
     """
 
     samples: int
@@ -69,32 +71,42 @@ def render_to_limit(
         return interruption.signal is None and not (late and renderer.samples > begun)
 
     begun = renderer.samples
-    for look in _looks(limits):
-        if interruption.signal is not None:
+    look = first_look(limits, begun)
+    while interruption.signal is None and renderer.render(look, goes_on).samples >= look:
+        if limits.error is None or look == limits.samples:
             break
-        if look < begun:
-            continue
-        renderer.render(look, goes_on)
-        if renderer.samples < look:
-            break
-        if limits.error is not None:
-            image = renderer.image()
-            if _is_reached(image.error_to_reach, limits.error):
-                return image
+        image = renderer.image()
+        error = image.error_to_reach
+        if error is not None and error <= limits.error:
+            return image
+        look = look_after(look, error, limits, renderer.settings)
     return renderer.image() if renderer.samples else None
 
 
-def _looks(limits: Limits) -> Iterator[int]:
-    """The sample counts at which to check the error, and the last one."""
+def first_look(limits: Limits, begun: int) -> int:
+    """Return the samples per pixel at which to check the error first, or the last ones.
+
+    A picture with `begun` samples goes on to the next of those at which one render might have
+    looked: `Limits.first_look` and its doublings.
+    """
     look = limits.first_look
-    while limits.error is not None and look < limits.samples:
-        yield look
+    while look < begun:
         look *= 2
-    yield limits.samples
+    return limits.samples if limits.error is None else min(look, limits.samples)
 
 
-def _is_reached(error: float | None, wanted: float) -> bool:
-    return error is not None and error <= wanted
+def look_after(samples: float, error: float | None, limits: Limits, settings: Settings) -> int:
+    """Return the samples per pixel at which to look again, after so many with this error.
+
+    The error falls as 1 / sqrt(samples). The next look is at the end of the block in which the
+    limit is reached, or at the next doubling if that comes first. Denoised pictures have looks at
+    doublings, whose first halves are kept.
+    """
+    look = 2 * samples
+    if error is not None and limits.error and settings.denoise == "none":
+        needed = AHEAD * samples * (error / limits.error) ** 2
+        look = min(look, settings.block * math.ceil(max(needed, samples + 1) / settings.block))
+    return int(min(look, limits.samples))
 
 
 def samples_limit(given: int | None, default: int, open_ended: bool) -> int:

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import glrt as package
-from glrt.cli.render import unreached
+from glrt.cli.reports.render_report import unreached
 from glrt.gpu.context import Context
 from glrt.gpu.driver_checks import usable_rounds
 from glrt.image.image import Image, read_recipe

@@ -41,12 +41,12 @@ def told(clock: dict[str, float], limits: Limits, samples: int, begun: int = 0) 
         (Limits(400), 0, 16),  # at 25 samples a second
         (Limits(1000, deadline=110.0), 0, 10),
         (Limits(1000, deadline=187.0), 0, 40),
-        (Limits(1 << 20, error=0.1), 0, 20.48),  # four times the samples, seen at 512
-        (Limits(450, error=0.1), 0, 18),
+        (Limits(1 << 20, error=0.1), 0, 16),  # four times the samples
+        (Limits(350, error=0.1), 0, 14),
         (Limits(1 << 20, error=0.5), 0, 4),  # reached, and seen at 64
         (Limits(1 << 20, deadline=106.0, error=0.1), 0, 6),
         (Limits(400), 50, 28),  # at 12.5 a second
-        (Limits(1 << 20, error=0.1), 50, 36.96),
+        (Limits(1 << 20, error=0.1), 50, 28),
     ],
     ids=[
         *("samples", "time", "samples before time", "error", "samples before error", "reached"),

@@ -7,7 +7,7 @@ import pytest
 from glrt import merge
 from glrt.cli.commands import parse, run
 from glrt.cli.request import order
-from glrt.cli.sampler import LEAST, by_length, sampler_for
+from glrt.cli.sampler import BY_ERROR, LEAST, by_length, sampler_for, sampler_to_error
 from glrt.gpu.context import Context
 from glrt.image.image import Image, read_recipe
 from tests.shaders.test_sobol import lit
@@ -99,3 +99,40 @@ def test_parts_choose_as_the_whole_does() -> None:
 def test_a_film_chooses_as_a_render_does() -> None:
     arguments = parse(["film", *LONG, "--turntable", "2", "-o", "%02d.exr"])
     assert order(arguments).settings.sampler == "sobol64"
+
+
+@pytest.fixture
+def of_few(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Renders to an error may have longer blocks, however small they are."""
+    monkeypatch.setattr("glrt.cli.sampler.MUCH", 0)
+    monkeypatch.setattr("glrt.cli.sampler.MANY", 8)
+
+
+@pytest.mark.usefixtures("of_few")
+def test_a_render_to_an_error_has_blocks_by_its_forecast(context: Context) -> None:
+    """The picture is that of a render of as many samples with these blocks."""
+    first = rendered(lit(), context, 64, sampler="sobol", width=8, height=6).error
+    assert first
+    limit = f"{first / 4:.6f}"  # 1,024 samples by the forecast
+    assert chosen(*SCENE, "--error", limit) == ("sobol64", BY_ERROR)
+    found = Image.load("out.exr")
+    image = rendered(lit(), context, found.samples, sampler="sobol64", width=8, height=6)
+    assert same(found, image)
+    assert found.error
+    assert found.error <= first / 4
+    for words in (["--sampler", "sobol"], ["--time", "60"], ["--denoise", "nlm"]):
+        assert chosen(*SCENE, "--error", limit, *words) == ("sobol", None)
+
+
+def test_few_samples_to_an_error_keep_their_blocks(
+    monkeypatch: pytest.MonkeyPatch, context: Context
+) -> None:
+    image = rendered(lit(), context, 64, sampler="sobol", width=8, height=6)
+    assert image.error
+    assert sampler_to_error(image, image.error / 8, 1 << 20) == "sobol"  # 4,096 of 48 pixels
+    monkeypatch.setattr("glrt.cli.sampler.MUCH", 48 * 4096)
+    assert sampler_to_error(image, image.error / 8, 1 << 20) == "sobol256"
+    assert sampler_to_error(image, image.error / 7.9, 1 << 20) == "sobol"
+    monkeypatch.setattr("glrt.cli.sampler.MUCH", 0)
+    assert sampler_to_error(image, image.error / 8, 2047) == "sobol"
+    assert sampler_to_error(image, image.error / 5, 1 << 20) == "sobol"  # 1,600 are too few

@@ -215,10 +215,8 @@ class Forecast:
         return min(candidates, default=None)
 
     def _samples_to_error(self, samples: float) -> float:
-        """Return the samples at the look that reaches the error; it falls as 1 / sqrt(samples)."""
+        """Return the samples that reach the error; it falls as 1 / sqrt(samples)."""
         assert self._limits.error
         assert self._error
         needed = samples * math.pow(self._error / self._limits.error, 2)
-        first = self._limits.first_look
-        doublings = max(0, math.ceil(math.log2(max(needed, 1.0) / first)))
-        return float(min(first * 2**doublings, self._limits.samples))
+        return float(min(max(needed, self._limits.first_look), self._limits.samples))

@@ -107,6 +107,32 @@ def report(arguments: argparse.Namespace, done: Done) -> None:
         print(left_out(renderer.settings, missing), file=sys.stderr)
 
 
+def unreached(
+    wanted: float, noise: float, estimate: float | None, samples: int, least: int = 2
+) -> str:
+    """Return the message about an `--error` of `wanted` that was not reached.
+
+    `noise`: error that the method's bias leaves to noise; `least`: samples from which an error is
+    known.
+    """
+    after = f"after {counted(samples, 'sample')}"
+    if estimate is None and samples < least:
+        known = f"{least} samples" + (" (2 with --sampler independent)" if least > 2 else "")
+        found = f"{after} the error is not known, which takes at least {known}"
+    else:
+        shown = "unknown" if estimate is None else f"{estimate:.3g}"
+        found = f"it is {shown} {after}"
+        if noise < wanted:
+            found = (
+                "after subtracting the bias of the method, its noise must be at most "
+                f"{noise:.3g}; {found}"
+            )
+    return (
+        f"--error {wanted:g} was not reached: {found}. The picture is saved; give more --samples "
+        "or --time."
+    )
+
+
 def _spread(image: Image) -> str:
     """Return the range of the counts of pixels, if they differ."""
     low, high = int(image.counts.min()), int(image.counts.max())
