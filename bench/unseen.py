@@ -105,8 +105,7 @@ def measure(
     commands: Mapping[str, Command], seed: int, size: int, rounds: int, seconds: float
 ) -> Result:
     """Render a scene by its seed; RenderError if a renderer refuses it."""
-    scene = landscape(seed)
-    return measure_scene(commands, scene, _about(scene), size, rounds, seconds, seed)
+    return measure_scene(commands, landscape(seed), "", size, rounds, seconds, seed)
 
 
 def measure_scene(
@@ -121,18 +120,18 @@ def measure_scene(
     """Render a scene called `about`; RenderError if a renderer refuses it, or if it is black."""
     own, small = by_default(scene, size), min(size, TRIAL_SIZE)
     with started({GLRT: commands[GLRT]}) as peers:
-        level = level_of(peers, own, LEVEL_SECONDS)
+        level = trial_level = level_of(peers, own, LEVEL_SECONDS)
         if not level.any():
             raise RenderError("its picture is black: no light reaches the camera.")
-        trial_level = level_of(peers, by_default(scene, small), LEVEL_SECONDS)
+        if small < size:
+            trial_level = level_of(peers, by_default(scene, small), LEVEL_SECONDS)
         own = by_default(scene, size, samples_to(TARGET_ERROR, peers, own, level))
     rival = best_mitsuba(commands, scene, small, trial_level)
     sets = max(rival.block, own.block) if rival.block > 1 else 1  # as many that belong together
     rival = replace(rival, request=replace(rival.request, width=size, height=size), block=sets)
-    entries = own, rival
-    alone = [pace_alone(commands, entry, seconds) for entry in entries]
-    few, many = _runs(commands, entries, rounds, seconds)
-    return result(seed, about, few, many, alone, level)
+    alone = [pace_alone(commands, entry, seconds) for entry in (own, rival)]
+    few, many = _runs(commands, (own, rival), rounds, seconds)
+    return result(seed, about or _about(scene), few, many, alone, level)
 
 
 def _runs(
@@ -187,8 +186,7 @@ def _about(scene: Scene) -> str:
 def table(results: Sequence[Result]) -> Iterator[str]:
     """The scenes as Markdown; pairs are of glrt and of Mitsuba."""
     columns = ["seed", "scene", "glrt with", "Mitsuba with", "samples", "million samples/s"]
-    columns += ["in turns / alone", "slope of glrt", "of Mitsuba", "to 2 %", "lead of glrt"]
-    columns += ["means apart"]
+    columns += ["in turns / alone", "slope of glrt", "of Mitsuba", "to 2 %", "lead", "means apart"]
     yield f"| {' | '.join(columns)} |"
     yield "|---" * len(columns) + "|"
     for found in results:

@@ -7,7 +7,14 @@ import pytest
 from glrt import merge
 from glrt.cli.commands import parse, run
 from glrt.cli.request import order
-from glrt.cli.sampler import BY_ERROR, LEAST, by_length, sampler_for, sampler_to_error
+from glrt.cli.sampler import (
+    BY_ERROR,
+    LEAST,
+    by_length,
+    may_lengthen,
+    sampler_for,
+    sampler_to_error,
+)
 from glrt.gpu.context import Context
 from glrt.image.image import Image, read_recipe
 from tests.shaders.test_sobol import lit
@@ -120,8 +127,25 @@ def test_a_render_to_an_error_has_blocks_by_its_forecast(context: Context) -> No
     assert same(found, image)
     assert found.error
     assert found.error <= first / 4
-    for words in (["--sampler", "sobol"], ["--time", "60"], ["--denoise", "nlm"]):
-        assert chosen(*SCENE, "--error", limit, *words) == ("sobol", None)
+    assert chosen(*SCENE, "--error", limit, "--sampler", "sobol") == ("sobol", None)
+
+
+@pytest.mark.parametrize(
+    ("words", "may"),
+    [
+        ([], True),
+        (["--sampler", "auto"], True),
+        (["--sampler", "sobol"], False),
+        (["--time", "60"], False),
+        (["--denoise", "nlm"], False),
+        (["--adaptive", "on"], False),
+        (["--method", "phong"], False),
+        (["--method", "auto"], False),
+    ],
+)
+def test_blocks_lengthen_only_where_they_are_left_open(words: list[str], may: bool) -> None:
+    arguments = parse(["render", *SCENE, "--error", "1%", *words, "-o", "out.exr"])
+    assert may_lengthen(arguments, order(arguments).settings) == may
 
 
 def test_few_samples_to_an_error_keep_their_blocks(
