@@ -21,6 +21,7 @@ from glrt.samplers import DIVISIONS
 from glrt.scene.scene import Scene
 
 TARGET_ERROR = 0.02  # relative RMS
+MOST = 8191  # samples: four of the blocks that longer renders have take too long for a turn
 TRIAL_ROUNDS = 4
 TRIAL_SECONDS = 1.0  # of a render
 TRIAL_SEED = 1000  # the first one of trials: choices are not made by the renders that count
@@ -48,9 +49,10 @@ def ours(scene: Scene, size: int, sampler: str = "sobol") -> Entry:
 def by_default(scene: Scene, size: int, samples: int = LEAST) -> Entry:
     """glrt as `glrt render` makes long renders of so many samples.
 
-    It has the blocks that `--sampler auto` takes, and particles where they pay.
+    It has the blocks that `--sampler auto` takes for MOST samples at most, and particles where they
+    pay.
     """
-    sampler = sampler_for(samples)
+    sampler = sampler_for(min(samples, MOST))
     asked = request(scene, size, method="mis", sampler=sampler, chooses=True)
     return Entry(f"glrt, {sampler}", GLRT, asked, DIVISIONS[sampler].block)
 

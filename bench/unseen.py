@@ -3,7 +3,7 @@
 Every change of glrt/ or shaders_glsl/ draws other scenes of `bench.landscapes`, so that none can be
 tuned for. In each scene glrt and Mitsuba at its best (`bench.entries`) take turns with sixteen
 independent renders of their own. glrt has the blocks that `glrt render` takes for the samples to
-2 %, and particles where its pilot finds that they pay; the time of the pilot does not count.
+2 %, of 256 at most, and particles where its pilot finds that they pay, whose time does not count.
 Multijittered samples of Mitsuba come in sets at least as large as glrt's blocks.
 Errors are relative RMS, about each renderer's own mean. Seconds to 2 % are extrapolated by t^-1/2,
 and the slope is checked by sixteen renders each of a quarter of the samples: scenes where one does

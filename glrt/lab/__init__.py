@@ -21,7 +21,7 @@ Modules, each importing only what stands above it:
 - sky: a sun of one pixel in an image of the sky
 - rough_glass: the light that rough glass, plastic, films, cloth, paper and brushed metal keep
 - textures: coordinates far away, bent normals, layers full of holes
-- points: points of a sampler in ever more dimensions
+- points: points of a sampler, in ever more dimensions and in any number
 - sums: accumulation, random numbers, long paths
 - samples: pixels that get samples by their noise, or share numbers with neighbours
 - views: positions and fields of view of the camera

@@ -99,6 +99,7 @@ _ALL = (
     Case("albedo", "Walls that hardly absorb", sums.albedo),
     Case("seeds", "Pixels that share random numbers", sums.seeds),
     Case("dimensions", "Points in ever more dimensions", points.dimensions),
+    Case("lengths", "Blocks of samples that end early", points.lengths),
     Case("uneven", "Noise in a part of a picture", samples.uneven),
     Case("neighbours", "Random numbers that neighbours share", samples.neighbours),
     Case("frames", "Many frames accumulated", sums.frames),

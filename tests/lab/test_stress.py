@@ -44,7 +44,7 @@ SLOW = (  # more than a second each, or many kernels
     *("lamps", "spots", "ceiling", "bulb", "focus", "mirrored", "ground", "many", "aperture"),
     *("near", "refracted", "slats", "contact", "leak", "wall", "rooms", "point", "polish"),
     *("stripes", "thin", "layers", "speed", "reflection", "rough", "step"),
-    *("crossing", "blur"),
+    *("crossing", "blur", "lengths"),
     *("flicker", "frosted", "denoised", "uncovered", "lag", "bright"),
     *("drawn", "sun", "frames", "bumps", "plastic", "fireflies", "ior"),
     *("brushed", "soap", "velvet", "leaf", "bending", "neighbours", "panes"),
