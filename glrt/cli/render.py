@@ -203,7 +203,7 @@ def _lengthened(
 ) -> Renderer:
     """Return a renderer with longer blocks if `--error` takes many samples, else the same.
 
-    The samples of the first look are those of the same renderer, and lost to another.
+    The same renderer goes on from the samples of the first look; another begins again.
     """
     limits, settings = wanted.limits, renderer.settings
     is_new = wanted.begun is None and recipe_of(arguments.scene) is None

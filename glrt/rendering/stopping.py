@@ -13,7 +13,7 @@ from glrt.rendering.renderer import Renderer
 from glrt.settings import MAX_SAMPLES, Settings
 
 FIRST_LOOK = 64  # samples
-AHEAD = 1.02  # times the samples that a forecast takes, which it misses by about as much
+AHEAD = 1.02  # times the samples of a forecast: its own noise lets few looks come too early
 
 
 @dataclass(frozen=True)
