@@ -31,6 +31,7 @@ from tests.mitsuba.scenes import (
     painted,
     pictured,
     polished,
+    slanted_room,
     solids,
     solids_but,
     sunlit,
@@ -240,6 +241,14 @@ def test_what_makes_mitsuba_faster_leaves_the_picture(context: Context, mitsuba:
     found = theirs(mitsuba, everything(), 1024, **fast)
     assert judged(ours(context, everything()), found).verdict == "same"
     assert not np.array_equal(found.radiance, theirs(mitsuba, everything(), 1024).radiance)
+
+
+def test_walls_that_end_leave_a_slanted_room_as_bright_to_mitsuba(mitsuba: Peer) -> None:
+    """Mitsuba knows a point to a part of the triangle's size: larger ones shade themselves."""
+    room = slanted_room()
+    found = judged(theirs(mitsuba, room, finite=True), theirs(mitsuba, room))
+    assert found, str(found)
+    assert found.sensitivity.light < 0.02
 
 
 def test_points_that_are_spread_come_in_whole_blocks(mitsuba: Peer) -> None:

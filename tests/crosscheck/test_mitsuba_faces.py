@@ -9,6 +9,7 @@ from glrt.core.errors import SceneError
 from glrt.scene.export.faces import is_seen_from_inside
 from glrt.scene.shapes.sphere import Sphere
 from tests.mitsuba.coincident import refuse_coincident
+from tests.mitsuba.planes import OF_A_ROOM, TO_THE_HORIZON, reach_of_planes
 from tests.support.builders import MATTE, box, cylinder, disk, plane, quad, scene_of, sphere
 
 SHEET = quad([0, 0, 0], [1, 0, 0], [0, 0, 1], "white")
@@ -58,3 +59,29 @@ def test_inside_of_a_ball_is_seen_if_something_is_there(item: dict[str, Any], se
     assert is_seen_from_inside(ball, scene) == seen
     inside = scene_of(objects, {"white": MATTE}, {"position": [0, 0, 0.9]})
     assert is_seen_from_inside(ball, inside)
+
+
+SIDES = [[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]]
+PYRAMID = [[0, 1, 0], [-1, -1, 0], [1, -1, 1], [1, -1, -1]]
+
+
+@pytest.mark.parametrize(
+    ("normals", "is_room"),
+    [
+        (SIDES, True),
+        (SIDES[:5], False),  # without a front
+        (SIDES[:4], False),  # a corridor
+        (SIDES[2:4], False),  # a floor and a ceiling
+        ([], False),
+        (PYRAMID, True),
+        (PYRAMID[1:], False),
+        ([*PYRAMID[:3], [1, -1, 0]], False),  # a gutter
+    ],
+)
+def test_planes_of_a_room_end_near_it(normals: list[list[float]], is_room: bool) -> None:
+    walls = [plane([-part for part in normal], normal, "white") for normal in normals]
+    scene = scene_of([*walls, sphere([0, 0, 0], 0.1, "white")], {"white": MATTE})
+    assert reach_of_planes(scene) == (OF_A_ROOM if is_room else TO_THE_HORIZON)
+    turned = [plane(item["point"], [-part for part in item["normal"]], "white") for item in walls]
+    backs = scene_of([*turned, sphere([0, 0, 0], 0.1, "white")], {"white": MATTE})
+    assert reach_of_planes(backs) == reach_of_planes(scene)

@@ -66,7 +66,7 @@ def _parser() -> argparse.ArgumentParser:
             add(f"--{name}", type=int, metavar="N", help=text)
     add("--file", metavar="FILE.xml", help="to which `glrt export` wrote the scene")
     add("--one-sided", action="store_true", help="quads light their front alone")
-    add("--finite", action="store_true", help="planes end far away, before the horizon")
+    add("--finite", action="store_true", help="planes end before the horizon")
     add("--variant", choices=["auto", "llvm", "scalar"], default="auto", help="how Mitsuba runs")
     add("--json", action="store_true", help="one line of figures on stdout")
     return parser

@@ -28,6 +28,7 @@ from tests.mitsuba import metal as our_metal
 from tests.mitsuba import rough_glass
 from tests.mitsuba.coincident import refuse_coincident
 from tests.mitsuba.loaded import loaded
+from tests.mitsuba.planes import reach_of_planes
 
 BLOCK = 64  # samples of a pixel among which samplers spread their points
 
@@ -38,7 +39,7 @@ class Liberties(NamedTuple):
     """Changes that make Mitsuba faster, and may hardly show."""
 
     one_sided: bool = False  # quads light their front alone
-    finite: bool = False  # planes end far away, before the horizon
+    finite: bool = False  # planes end far away, or outside of the room that they are
     native: bool = False  # rough metal is Mitsuba's own, whose shadowing is not correlated
     sampler: str = "independent"  # of the samplers of Mitsuba; all others take BLOCK samples
 
@@ -51,7 +52,8 @@ def convert(mi: Any, scene: Scene, settings: Settings, liberties: Liberties) -> 
     refuse_coincident(scene)
     our_metal.register(mi.variant())
     rough_glass.register(mi.variant())
-    kinds = liberties.sampler, BLOCK, liberties.one_sided, liberties.finite
+    reach = reach_of_planes(scene) if liberties.finite else None
+    kinds = liberties.sampler, BLOCK, liberties.one_sided, reach
     choices = words.Choices(near(scene), *kinds)
     surfaces = _Exact(scene, liberties.native)
     found: Words = loaded(mi, words.convert(scene, settings, choices, surfaces, _refuse))

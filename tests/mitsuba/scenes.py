@@ -52,6 +52,15 @@ SOLIDS = [
 ]
 
 
+def slanted_room() -> Scene:
+    """A lamp between walls that no axis is square to, and the camera before one of them."""
+    across, along = np.array([0.73, 0.0, 0.68]), np.array([-0.68, 0.0, 0.73])
+    walls = [plane(-3 * side, side, "white") for side in (across, -across, along, -along)]
+    floors = [plane([0, 0, 0], [0, 1, 0], "white"), plane([0, 3, 0], [0, -1, 0], "white")]
+    objects = [*walls, *floors, sphere([1.5, 1.8, -0.2], 0.05, "bulb")]
+    return scene_of(objects, MATERIALS, {"position": [0.3, 1.3, 0.4], "look_at": [3.0, 1.0, 2.8]})
+
+
 def frosted(roughness: float = 0.6, **pane: Any) -> Scene:
     """A ball and a box of rough glass, a ball with a lamp in it, and a pane before a wall."""
     materials = MATERIALS | {

@@ -15,7 +15,6 @@ Floats = NDArray[np.float64]
 # gap to the horizon is a small part of a pixel. Its outer cells are larger, since other programs
 # know a point on a triangle to a part of the triangle's size; few, since they cost time.
 _LINES = np.array([-(2.0**15), -8.0, 8.0, 2.0**15])
-_CELL = np.array([-1000.0, 1000.0])  # of a plane that may end
 
 
 class Form(NamedTuple):
@@ -39,12 +38,15 @@ def form_of(item: Mesh, uv_set: int = 0) -> Form:
     return Form(mesh.vertices, mesh.faces, normals, uv)
 
 
-def grid_of_plane(item: Plane, at: Placing, is_finite: bool = False) -> Form:
-    """Return a plane as a grid around the foot of the origin, in other coordinates."""
+def grid_of_plane(item: Plane, at: Placing, reach: float | None = None) -> Form:
+    """Return a plane as a grid around the foot of the origin, in other coordinates.
+
+    With `reach` it is one cell that ends there, over the extent of the scene.
+    """
     normal = normal_of(item)
     u, v = around(normal)
     foot = np.dot(at.point(item.point), normal) * normal
-    lines = at.extent * (_CELL if is_finite else _LINES)
+    lines = at.extent * (np.array([-reach, reach]) if reach else _LINES)
     points = np.array([foot + x * u + y * v for y in lines for x in lines])
     side = len(lines)
     cells = [y * side + x for y in range(side - 1) for x in range(side - 1)]

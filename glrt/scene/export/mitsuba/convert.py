@@ -27,7 +27,7 @@ class Choices(NamedTuple):
     sampler: str = "independent"  # of the samplers of Mitsuba
     sample_count: int = 1
     one_sided: bool = False  # whether flat lamps light their front alone
-    finite: bool = False  # whether planes end far away, before the horizon
+    reach: float | None = None  # of planes, over the extent of the scene; None: to the horizon
 
 
 def convert(
@@ -48,7 +48,7 @@ def convert(
         words["background"] = sky(scene)
     if any(scene.sun_radiance):
         words["sun"] = sun(scene, at.extent)
-    shapes = Shapes(scene, at, surfaces, report, choices.one_sided, choices.finite)
+    shapes = Shapes(scene, at, surfaces, report, choices.one_sided, choices.reach)
     for index in scene.shown:
         item = scene.objects[index]
         name = item.name or f"{item.shape} {index}"

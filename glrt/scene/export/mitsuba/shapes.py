@@ -53,7 +53,7 @@ class Shapes:
     surfaces: Surfaces
     report: Report  # takes each thing that Mitsuba does not show
     one_sided: bool  # whether flat lamps light their front alone
-    is_finite: bool  # whether planes end before the horizon
+    reach: float | None  # of planes, over the extent of the scene; None: to the horizon
     forms: dict[object, Form] = field(default_factory=dict)  # of meshes, by what they share
 
     def of(self, item: Any, name: str) -> Iterator[Words]:
@@ -101,7 +101,7 @@ class Shapes:
         if "emitter" in surface:
             self.report(f"the light of {quoted(name)}, a lamp without end")
             del surface["emitter"]
-        grid = grid_of_plane(item, self.at, self.is_finite)
+        grid = grid_of_plane(item, self.at, self.reach)
         return _mesh_of(grid if self._has_images(item) else grid._replace(uv=None), surface)
 
     def _flat(self, item: Quad | Disk, name: str) -> Iterator[Words]:
