@@ -2,6 +2,7 @@
 
 import random
 import time
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -93,6 +94,34 @@ def test_a_bright_pixel_does_not_hide_its_own_error() -> None:
     level = caustics.around(radiance)
     assert_allclose(level[6:11, 6:11], 2)
     assert caustics.variance_of(level, errors) > 2 * caustics.variance_of(radiance, errors)
+
+
+def picture(height: int, width: int, error: float) -> Any:
+    """A grey picture as `_unseen` takes them."""
+    ones = np.ones((height, width, 3), np.float32)
+    return SimpleNamespace(radiance=ones, stderr=error * ones)
+
+
+@pytest.mark.parametrize(("height", "width"), [(16, 16), (20, 13)])
+@pytest.mark.parametrize(("extra", "is_missed"), [(0.5, True), (0.005, False), (-0.5, False)])
+def test_a_caustic_that_is_missed_counts_as_found_by_one_path(
+    height: int, width: int, extra: float, is_missed: bool
+) -> None:
+    """Noise elsewhere does not hide it: here it hides the gap in the frame."""
+    plain, other = picture(height, width, 0.01), picture(height, width, 0.01)
+    plain.stderr[8:, 8:] = 50.0
+    other.radiance[:8, :8] += extra
+    found = caustics._unseen(plain, other, np.ones_like(plain.radiance))
+    squares = 8 * 8 * (8 * 8 * 0.5**2) / (height * width)
+    assert found == pytest.approx(squares / 1.01 if is_missed else 0.0, rel=1e-3)
+
+
+def test_light_that_is_missed_everywhere_is_seen_in_the_frame_alone() -> None:
+    plain, other = picture(32, 32, 0.2), picture(32, 32, 0.2)
+    assert caustics._unseen(plain, other, np.ones_like(plain.radiance)) == 0.0
+    other.radiance += 0.1  # less than 5 standard errors of a tile
+    found = caustics._unseen(plain, other, np.ones_like(plain.radiance))
+    assert found == pytest.approx(32 * 32 * 0.1**2 / 1.01, rel=1e-3)
 
 
 def under_a_ball(radius: float) -> Scene:

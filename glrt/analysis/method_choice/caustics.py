@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from glrt.analysis.method_choice.work import counting, work_per_sample
 from glrt.analysis.variants import LINKED
@@ -23,6 +24,7 @@ from glrt.rendering.renderer import Renderer
 from glrt.scene.scene import Scene
 from glrt.settings import Sampler, Settings, settings_for
 
+Floats = NDArray[np.float64]
 Values = Mapping[str, Any]  # of settings, by their names
 
 # The settings that are tried, in addition to a render without particles.
@@ -38,7 +40,8 @@ LEAST = 128  # a render is worth a pilot if it takes so many times the samples o
 SEED = 0x43415553  # the same for every render, so that equal renders decide alike
 GAIN = 1.15  # times as efficient, at least: variances and work are estimates
 HOPELESS = 0.9  # times as efficient: where the first choice is not, the others are not tried
-CERTAIN = 5.0  # standard errors of the mean of a frame, beyond which two differ
+CERTAIN = 5.0  # standard errors of the mean of a frame or tile, beyond which two differ
+TILE = 8  # pixels on a side: about the size of a caustic in the small frame
 NEAR = 0.85  # of the best gain suffices: later CHOICES find more light that a pilot has not seen
 AROUND = 2  # pixels on each side of a pixel, whose mean is its level
 
@@ -162,7 +165,7 @@ def _gain(scene: Scene, settings: Settings, plain: Image, context: Context, pixe
     image = _picture(scene, settings, context, pixels)
     level = around(image.radiance)
     cost = variance_of(level, image.stderr) * _slowed(scene, settings, context)
-    variance = max(variance_of(level, plain.stderr), _unseen(plain, image, level))
+    variance = variance_of(level, plain.stderr) + _unseen(plain, image, level)
     return variance / max(cost, _TINY)
 
 
@@ -180,18 +183,30 @@ def around(radiance: Pixels) -> Pixels:
 
 
 def _unseen(plain: Image, other: Image, level: Pixels) -> float:
-    """Least variance of a plain picture that lacks light which another picture has; 0 otherwise.
+    """Least variance of light that a plain picture lacks and another picture has; 0 without any.
 
     Its own errors do not show light that none of its paths has found, such as the caustic of a tiny
-    lamp. If that light were found once, one path of one pixel would find all of it.
+    lamp. It is missed in the whole frame, or in tiles where it is bright.
     """
-    pixels = math.prod(plain.radiance.shape[:2])
-    gap = float(np.mean(other.radiance - plain.radiance, dtype=float))
-    errors = np.hypot(plain.stderr, other.stderr)
-    sure = math.sqrt(float(np.mean(np.square(errors), dtype=float)) / pixels)
-    if gap <= CERTAIN * sure:
-        return 0.0
-    return pixels * variance_of(level, np.full_like(level, gap))
+    return max(_unseen_in(side, plain, other, level) for side in (TILE, max(level.shape)))
+
+
+def _unseen_in(side: int, plain: Image, other: Image, level: Pixels) -> float:
+    """The same by tiles of `side` pixels: in each, one path of one pixel would find all of it."""
+    rows, columns = (np.arange(count) // side for count in level.shape[:2])
+    tiles = (rows[:, None] * (columns[-1] + 1) + columns).ravel()
+    counts = np.bincount(tiles)
+
+    def mean_of(pixels: Pixels) -> Floats:
+        sums = np.bincount(tiles, pixels.mean(axis=-1, dtype=float).ravel())
+        return np.asarray(sums / counts)
+
+    squares = np.square(np.hypot(plain.stderr, other.stderr), dtype=float)
+    gaps, sure = mean_of(other.radiance - plain.radiance), np.sqrt(mean_of(squares) / counts)
+    errors = np.where(gaps > CERTAIN * sure, gaps * np.sqrt(counts), 0.0)
+    return variance_of(
+        level, np.broadcast_to(errors[tiles].reshape(*level.shape[:2], 1), level.shape)
+    )
 
 
 def _small(settings: Settings, pixels: int) -> Settings:
