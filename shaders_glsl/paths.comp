@@ -155,7 +155,7 @@ void replay_particle() {
     if (particle.power == vec3(0.0)) return;
     Ray ray = particle.path.ray;
     vec3 normal = ray.direction;
-    lamp = SKY_SENDS ? FROM_BACKGROUND : FROM_SUN;
+    lamp = is_from_sky(particle.light) ? FROM_BACKGROUND : FROM_SUN;
     if (particle.light >= 0) {
         normal = lamp_normal(light_at(particle.light), ray.origin);
         lamp = object_number(light_at(particle.light).shape);

@@ -22,9 +22,10 @@ from glrt.scene.scene import Scene
 Array = np.ndarray[Any, Any]
 
 UNIT_BITS = 40  # bits of the brightest lamp's radiance, in the unit of a particle's splat
-LEAST_SHARE = 0.1  # least share of particles from the sun, and from lamps, if there are both
+LEAST_SHARE = 0.1  # least share of particles from the sun, the sky and the lamps, next to others
 NOWHERE = Ball(np.zeros(3), 0.0)
-_OFF = ("particles", "aimed", "splat_unit", "linked", "linked_groups", "bounds_radius", "from_sun")
+_OFF = ("particles", "aimed", "splat_unit", "linked", "linked_groups", "bounds_radius")
+_NONE_FROM_AFAR = {"from_sun": 0.0, "from_sky": 0.0}
 
 
 def particle_fields(plan: Plan) -> dict[str, object]:
@@ -34,7 +35,7 @@ def particle_fields(plan: Plan) -> dict[str, object]:
     """
     scene, settings, particles = plan.scene, plan.settings, plan.facts.particles
     if settings.caustics == "off":
-        return {**dict.fromkeys(_OFF, 0), "bounds_center": (0.0, 0.0, 0.0)}
+        return {**dict.fromkeys(_OFF, 0), "bounds_center": (0.0, 0.0, 0.0), **_NONE_FROM_AFAR}
     brightest = max([max(scene.emission_of(lamp)) for lamp in particles.lamps], default=0.0)
     ball = plan.bounds or NOWHERE
     return {
@@ -45,7 +46,7 @@ def particle_fields(plan: Plan) -> dict[str, object]:
         "linked_groups": linked_groups(settings),
         "bounds_center": ball.center - np.array(scene.camera.position, np.float64),
         "bounds_radius": ball.radius,
-        "from_sun": _share_of_the_sun(particles, ball) if particles.sun_sends else 0.0,
+        **shares_from_afar(particles, ball),
     }
 
 
@@ -73,20 +74,39 @@ def _from_the_sky(particles: ParticleFacts) -> float:
     return mean * max(map(max, scene.background_colors))
 
 
-def _share_of_the_sun(particles: ParticleFacts, bounds: Ball) -> float:
-    """Return the sun's share of the particles, by flux through the ball around the scene.
+def shares_from_afar(particles: ParticleFacts, bounds: Ball) -> dict[str, float]:
+    """Return the shares of the particles that leave the sun and the sky, as fields of the frame.
 
-    Next to lamps it is at least LEAST_SHARE and at most 1 - LEAST_SHARE.
+    They are those of the flux through the ball around the scene, of the sky by its bright spots.
+    Next to other lights each is at least LEAST_SHARE, and so is that of the lamps.
     """
     scene, lamps = particles.scene, particles.lamps
-    assert scene.sun
-    solid_angle = 2 * math.pi * scene.sun.versine
-    own = sum(scene.sun_radiance) * solid_angle * math.pi * bounds.radius**2
-    if not lamps:
-        return 1.0
-    theirs = sum(sum(scene.emission_of(lamp)) * math.pi * 4 * lamp.reach**2 for lamp in lamps)
-    share = own / (own + theirs) if own + theirs > 0 else 0.5
-    return min(max(share, LEAST_SHARE), 1 - LEAST_SHARE)
+    area = math.pi * bounds.radius**2
+    fluxes: dict[str, float] = {}
+    if particles.sun_sends and scene.sun:
+        solid_angle = 2 * math.pi * scene.sun.versine
+        fluxes["from_sun"] = sum(scene.sun_radiance) * solid_angle * area
+    if particles.sky_sends:
+        bright = particles.bright_sky * _from_the_sky(particles)
+        fluxes["from_sky"] = 3 * bright * 4 * math.pi * area
+    if lamps:
+        each = (sum(scene.emission_of(lamp)) * math.pi * 4 * lamp.reach**2 for lamp in lamps)
+        fluxes["lamps"] = sum(each)
+    return {**_NONE_FROM_AFAR, **_shares_of(fluxes)}
+
+
+def _shares_of(fluxes: dict[str, float]) -> dict[str, float]:
+    """Return the shares of some of the senders; those of the lamps are the rest."""
+    total = sum(fluxes.values())
+    even = 1 / len(fluxes) if fluxes else 0.0
+    shares = {name: it / total if total > 0 else even for name, it in fluxes.items()}
+    rare = {name for name, share in shares.items() if share < LEAST_SHARE and len(shares) > 1}
+    left = (1 - LEAST_SHARE * len(rare)) / (1 - sum(shares[name] for name in rare)) if rare else 1.0
+    return {
+        name: LEAST_SHARE if name in rare else left * share
+        for name, share in shares.items()
+        if name != "lamps"
+    }
 
 
 def with_particles(arrays: Arrays, plan: Plan) -> dict[str, Array]:

@@ -198,6 +198,9 @@ class Needs:
     has_particles: bool = row(  # particles from lamps, linked to the camera
         lambda it: it.sends_particles, "particles", reasons.caustics
     )
+    sky_sends: bool = row(  # the sky sends some particles, or all
+        lambda it: it.sends_particles and it.particles.sky_sends, most=False
+    )
     casters: int = row(  # spheres at which some particles are aimed: a bit for each
         lambda it: it.particles.casters if it.aims else 0, most=0
     )

@@ -66,8 +66,10 @@ class Plan:
     @property
     def bounds(self) -> Ball | None:
         """The ball that particles from the sun or the sky fill, or None without such particles."""
+        if not self.needs.has_particles:
+            return None
         sends = self.needs.has_sun or self.facts.particles.sky_sends
-        return self.facts.particles.bounds if self.needs.has_particles and sends else None
+        return self.facts.particles.bounds if sends else None
 
     @property
     def layers(self) -> int:

@@ -120,11 +120,15 @@ Particle start_particle(inout Sampler rng) {
         vec2 pick = next_2d(rng);
         if (pick.x < frame.aimed) aim = choose_aim(pick.y);
     }
-    if (SKY_SENDS) return start_from_sky(aim, v, rng);
-    if (HAS_SUN) {
-        if (choice.x < frame.from_sun) return start_from_sun(aim, u, v);
-        choice.x = (choice.x - frame.from_sun) / (1.0 - frame.from_sun);
+    if (SKY_SENDS) {
+        if (ONLY_SKY_SENDS || choice.x < frame.from_sky) return start_from_sky(aim, v, rng);
+        choice.x -= frame.from_sky;
     }
+    if (HAS_SUN) {
+        if (CLUSTERS == 0 || choice.x < frame.from_sun) return start_from_sun(aim, u, v);
+        choice.x -= frame.from_sun;
+    }
+    if (SKY_SENDS || HAS_SUN) choice.x /= share_of_lamps();
     int index = choose_emitter(choice.x);
     Light light = light_at(index);
     float front = sides_at(index).front;

@@ -28,13 +28,12 @@ float pdf_film(vec3 direction, float cosine, float distance) {
 
 // Weight of a sampled point: P1^2 over the sum of squares. `scattered`: the density of scattering to it.
 float sample_beside_particles(LightSample light, float scattered, float rho) {
+    int sender = SKY_SENDS && light.light == NO_LIGHT ? SKY_LIGHT : light.light;
     vec3 point = light.ray.origin;
-    if (!SKY_SENDS && light.light != SUN_LIGHT) point += light.distance * light.ray.direction;
+    if (!is_from_sky(sender) && sender != SUN_LIGHT) point += light.distance * light.ray.direction;
     float ratio = scattered / light.pdf;
     float over = 0.0;
-    if (SKY_SENDS || light.light != NO_LIGHT) {
-        over = ratio * pdf_emission(light.light, point, -light.ray.direction, NOT_AIMED) / rho;
-    }
+    if (sender != NO_LIGHT) over = ratio * pdf_emission(sender, point, -light.ray.direction, NOT_AIMED) / rho;
     float weight = 1.0 / (1.0 + ratio * ratio + over * over);
     return weight;
 }

@@ -7,7 +7,7 @@ float kappa_of(int light, Meeting at, float distance) {
     Ray ray = at.ray;
     ray.direction = -ray.direction;
     float sampled = 0.0;
-    if (SKY_SENDS) {
+    if (is_from_sky(light)) {
         if (SAMPLE_SKY) sampled = pdf_sky(ray.direction);
     } else if (HAS_SUN && light == SUN_LIGHT) sampled = pdf_sun();
     else sampled = pdf_light(light, ray, distance, total_weight(ray));

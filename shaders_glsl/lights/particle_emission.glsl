@@ -6,9 +6,21 @@
 // Particles from the sun follow its rays. They are spread evenly over the disk that a ball fills across the rays: the
 // ball around the scene, or one that is aimed at. Particles from the sky are spread in the same way. Their directions
 // are drawn as those of the image of the sky are sampled, or evenly. The sky sends all particles where neither lamps
-// nor the sun send any.
+// nor the sun send any, and the share `frame.from_sky` where it is an image with bright spots (SKY_SENDS, from
+// ParticleFacts.sky_sends).
 
-const bool SKY_SENDS = HAS_PARTICLES && HAS_BACKGROUND && CLUSTERS == 0 && !HAS_SUN;
+const bool ONLY_SKY_SENDS = SKY_SENDS && CLUSTERS == 0 && !HAS_SUN;
+
+// Whether particles of this light come from the sky.
+bool is_from_sky(int light) { return SKY_SENDS && (ONLY_SKY_SENDS || light == SKY_LIGHT); }
+
+// The share of the particles that leaves lamps.
+float share_of_lamps() {
+    float share = 1.0;
+    if (SKY_SENDS) share -= frame.from_sky;
+    if (HAS_SUN) share -= frame.from_sun;
+    return share;
+}
 
 const int NOT_AIMED = -1;
 const int FIRST_TARGET = 1 << 20;  // beyond all spheres: the number of the first target that is no sphere
@@ -134,6 +146,7 @@ float pdf_sky_direction(vec3 towards) {
 // The same for the sky; `direction` is the direction of the particles, and the sky lies behind them.
 float pdf_from_sky(vec3 p, vec3 direction, int certain) {
     float pdf = PI * pdf_sky_direction(-direction) * density_from_afar(p, direction, certain);
+    if (!ONLY_SKY_SENDS) pdf *= frame.from_sky;
     return pdf;
 }
 
@@ -186,7 +199,7 @@ Aspect aspect_of(int index, vec3 p, vec3 direction) {
 // PI times the density of particles that leave a lamp at p, per area and per projected solid angle; 0 where none
 // leave. `certain`: see pdf_aimed. For the sun and the sky, p is any point on the line.
 float pdf_emission(int index, vec3 p, vec3 direction, int certain) {
-    if (SKY_SENDS) return pdf_from_sky(p, direction, certain);
+    if (is_from_sky(index)) return pdf_from_sky(p, direction, certain);
     if (HAS_SUN && index == SUN_LIGHT) return pdf_from_sun(p, direction, certain);
     int lamp = max(index, 0);  // NVIDIA refuses a constant below 0 here, though the line above returns
     Aspect aspect = aspect_of(lamp, p, direction);
@@ -197,6 +210,6 @@ float pdf_emission(int index, vec3 p, vec3 direction, int certain) {
         by_angle = (1.0 - frame.aimed) * by_angle + aimed / larger(aspect.cosine, LEAST_COSINE);
     }
     float pdf = cluster_at(lamp).probability * by_angle / aspect.area;
-    if (HAS_SUN) pdf *= 1.0 - frame.from_sun;
+    if (SKY_SENDS || HAS_SUN) pdf *= share_of_lamps();
     return pdf;
 }

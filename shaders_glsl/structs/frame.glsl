@@ -51,6 +51,7 @@ struct Frame {
     float linked;           // share that is also linked to the camera through spheres, where LINKED is not 0
     int linked_groups;      // work groups of these particles
     float from_sun;         // share of the particles that leaves the sun
+    float from_sky;         // share that leaves the sky, where SKY_SENDS
     vec3 probe_first;       // place of the first probe of the grid, relative to the camera; where HAS_PROBES
     float probe_edge;       // the shortest edge of a cell
     vec3 probe_cell;        // the edges of a cell

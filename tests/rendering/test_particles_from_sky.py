@@ -1,4 +1,4 @@
-"""Particles from the sky, where nothing else sends any: the same light as without them."""
+"""Particles from the sky, alone and next to those of lamps: the same light as without them."""
 
 from typing import Any
 
@@ -7,9 +7,11 @@ import pytest
 from numpy.testing import assert_allclose
 
 from glrt.gpu.context import Context
+from glrt.packing.particles import shares_from_afar
 from glrt.plan.facts import SceneFacts
 from glrt.plan.features import needs_of
 from glrt.plan.particles import ball_around
+from glrt.scene.files.named_images import Pixels
 from glrt.scene.scene import Scene
 from glrt.settings import settings_for
 from tests.conftest import CallGlsl
@@ -18,7 +20,7 @@ from tests.support.images import same_bits
 from tests.support.numerics import directions
 from tests.support.particle_starts import particle_text, starts
 from tests.support.renders import assert_agree, assert_mean, rendered, rendering, whole
-from tests.support.sky_images import spot, under
+from tests.support.sky_images import sky64, spot, under
 
 ON: dict[str, Any] = {"caustics": "on", "linked": 0.0}
 CAMERA: dict[str, Any] = {"position": [0, 0, 0.9], "look_at": [0, -0.3, -1], "fov": 80}
@@ -34,15 +36,35 @@ KINDS: dict[str, dict[str, Any]] = {
 }
 
 
-def sun_in_an_image(*things: dict[str, Any]) -> Scene:
+BULB = sphere([-0.3, 0.8, -0.9], 0.15, "bulb")
+SUN = {"direction": [0.5, 1, 0.4], "angle": 4.0, "irradiance": [1.2, 0.9, 0.6]}
+
+
+FLUX_OF_BULB = 8 * np.pi * 4 * np.pi * 0.15**2
+
+
+def sky_flux(scene: Scene, count: int = 1_000_000) -> float:
+    """The integral of the red radiance of a sky over all directions."""
+    picture = scene.sky
+    assert picture
+    assert picture.pixels is not None
+    return float(4 * np.pi * sky64(picture.pixels, directions(count))[:, 0].mean())
+
+
+def sun_in_an_image(*things: dict[str, Any], **more: Any) -> Scene:
     """One bright pixel in a dim sky."""
-    return under(spot(10, 1, radiance=60.0) + np.float32(0.2), *things, camera=CAMERA)
+    pixels = spot(10, 1, radiance=60.0) + np.float32(0.2)
+    bulb = {"bulb": lamp(8.0)}
+    return under(pixels, *things, camera=CAMERA, materials=bulb, **more)
 
 
 SKIES: dict[str, Scene] = {
     "gradient": scene_of([FLOOR, BALL, TUBE], KINDS, CAMERA, background=DOME),
     "image": sun_in_an_image(FLOOR, BALL),
     "image, a floor without end": sun_in_an_image(plane([0, -1, 0], [0, 1, 0], "m"), BALL, TUBE),
+    "image and a lamp": sun_in_an_image(FLOOR, BALL, BULB),
+    "image and the sun": sun_in_an_image(FLOOR, BALL, sun=SUN),
+    "image, a lamp and the sun": sun_in_an_image(FLOOR, BALL, BULB, sun=SUN),
 }
 
 
@@ -82,9 +104,16 @@ def test_the_error_falls_where_a_small_sun_shines_through_glass(context: Context
     assert errors[1] < errors[0] / 1.3
 
 
-def test_lines_from_the_sky_have_a_density(call_glsl: CallGlsl) -> None:
-    """Its integral over all directions, and the area across them, is 1."""
-    scene = under(spot(10, 1, radiance=2.0) + np.float32(0.2), FLOOR, BALL, camera=CAMERA)
+@pytest.mark.slow_cases("lamp")
+@pytest.mark.parametrize("name", ["image", "image and a lamp", "image, a lamp and the sun"])
+def test_lines_from_the_sky_have_a_density(call_glsl: CallGlsl, name: str) -> None:
+    """Its integral over all directions, and the area across them, is the sky's share."""
+    things = [BULB] * ("lamp" in name), {"sun": SUN} if "sun" in name else {}
+    scene = sun_in_an_image(FLOOR, BALL, *things[0], **things[1])
+    particles = SceneFacts(scene).particles
+    assert particles.sky_sends
+    assert particles.bounds
+    share = shares_from_afar(particles, particles.bounds)["from_sky"]
     around = ball_around(scene)
     assert around
     eye = np.array(scene.camera.position)
@@ -101,8 +130,8 @@ def test_lines_from_the_sky_have_a_density(call_glsl: CallGlsl) -> None:
         towards=-towards,
     ).astype(np.float64)
     total = 4 * np.pi * (2.4 * around.radius) ** 2 * found
-    assert abs(total.mean() - 1) < 5 * total.std() / np.sqrt(total.size)
-    assert total.std() / np.sqrt(total.size) < 0.02
+    assert abs(total.mean() - share) < 5 * total.std() / np.sqrt(total.size)
+    assert total.std() / np.sqrt(total.size) < 0.1 * share
 
 
 def test_particles_carry_the_flux_of_the_sky(call_glsl: CallGlsl, particle_files: str) -> None:
@@ -114,6 +143,31 @@ def test_particles_carry_the_flux_of_the_sky(call_glsl: CallGlsl, particle_files
     flux = 4 * np.pi * 2 * np.pi * around.radius**2
     assert abs(power.mean() - flux) < 5 * power.std() / np.sqrt(power.size) + 1e-5 * flux
     assert power.std() / np.sqrt(power.size) < 0.02 * flux
+
+
+def test_each_light_sends_its_flux_in_its_share(call_glsl: CallGlsl, particle_files: str) -> None:
+    """In an image, a lamp and the sun: flux through the ball around the scene, or of the lamp."""
+    scene = sun_in_an_image(FLOOR, BALL, BULB, sun=SUN)
+    particles = SceneFacts(scene).particles
+    assert particles.bounds
+    across = np.pi * particles.bounds.radius**2
+    shares = shares_from_afar(particles, particles.bounds)
+    fluxes = {
+        "sky": sky_flux(scene) * across,
+        "sun": 1.2 * across,
+        "lamp": FLUX_OF_BULB,
+    }
+    rest = 1 - shares["from_sun"] - shares["from_sky"]
+    chances = {"sky": shares["from_sky"], "sun": shares["from_sun"], "lamp": rest}
+    lights = {"sky": "light == SKY_LIGHT", "sun": "light == SUN_LIGHT", "lamp": "light >= 0"}
+    sent = "vec2(particle.power.x, 1.0) * float(particle.{}) + 0.0 * n"
+    for name, light in lights.items():
+        found = starts(call_glsl, particle_files, scene, sent.format(light), "vec2")
+        errors = found.std(axis=0) / np.sqrt(len(found))
+        expected = [fluxes[name], chances[name]]
+        assert np.all(np.abs(found.mean(axis=0) - expected) < 5 * errors), name
+        assert errors[0] < 0.05 * fluxes[name]
+        assert chances[name] > 0.05
 
 
 @pytest.mark.slow
@@ -139,9 +193,41 @@ def test_the_sky_is_shared_by_three_ways(call_glsl: CallGlsl) -> None:
     assert all((share > 0.5).sum() > 50 for share in shares)
 
 
+@pytest.mark.parametrize(
+    ("pixels", "sends"),
+    [
+        (spot(10, 1, radiance=60.0) + np.float32(0.2), True),
+        (spot(10, 1, radiance=60.0) + np.float32(10.0), False),  # too little light
+        (spot(10, 1, radiance=2.0) + np.float32(0.2), False),  # not bright enough
+        (np.ones((8, 16, 3), np.float32), False),
+    ],
+)
+def test_a_sky_with_a_bright_spot_sends_particles_next_to_a_lamp(
+    pixels: Pixels, sends: bool
+) -> None:
+    bulb = {"bulb": lamp(8.0)}
+    assert SceneFacts(under(pixels, FLOOR, BULB, materials=bulb)).particles.sky_sends == sends
+    assert SceneFacts(under(pixels, FLOOR)).particles.sky_sends
+    tinted = {"tinted": glass(attenuation_color=[0.5, 0.6, 0.7], attenuation_distance=1.0)}
+    water = plane([0, -1.5, 0], [0, 1, 0], "tinted")
+    scene = under(pixels, FLOOR, BULB, water, materials=bulb | tinted)
+    assert not SceneFacts(scene).particles.sky_sends
+
+
+def test_bright_spots_have_their_share_of_the_flux() -> None:
+    """Rows of equal height count by the sine of their angle from the pole."""
+    pixels = np.full((4, 100, 3), 0.1, np.float32)
+    pixels[0, 5], pixels[1, 7] = 30, 20
+    sines = np.sin(np.pi * np.array([1, 3, 5, 7]) / 8)
+    bright = 30 * sines[0] + 20 * sines[1]
+    total = 0.1 * (100 * sines.sum() - sines[0] - sines[1]) + bright
+    particles = SceneFacts(under(pixels, FLOOR)).particles
+    assert particles.bright_sky == pytest.approx(bright / total)
+
+
 @pytest.mark.slow
-def test_where_a_lamp_shines_the_sky_sends_none(context: Context) -> None:
-    """Pictures with particles, a lamp and a sky therefore keep their bits."""
+def test_where_a_lamp_shines_a_gradient_sends_none(context: Context) -> None:
+    """Pictures with particles, a lamp and a gradient therefore keep their bits."""
     things = [FLOOR, BALL, sphere([0, 1, -0.5], 0.1, "lamp")]
     films = []
     for top in ([0.0, 0.0, 0.0], [1.0, 1.0, 1.0]):

@@ -13,7 +13,7 @@ from glrt.scene.scene import Scene
 from tests.support.builders import box, cylinder, disk, lamp, plane, quad, scene_of, sphere
 from tests.support.meshes import icosphere, mesh
 from tests.support.particle_rooms import DRINK, MATERIALS, SHADE, room
-from tests.support.sky_images import random_sky, under
+from tests.support.sky_images import random_sky, spot, under
 from tests.support.textures import random_image, with_images
 
 FLOOR = plane([0, -1, 0], [0, 1, 0], "matte")
@@ -113,14 +113,16 @@ def crowd() -> Scene:
 
 
 def caustics() -> Scene:
-    """Particles aimed at glass, linked through spheres, of lamps with cones and fronts."""
-    return room(
+    """Particles aimed at glass, linked through spheres, of lamps with cones and of a small sun."""
+    indoors = room(
         {**quad([-0.25, 0.9, -0.4], [0.5, 0, 0], [0, 0, 0.4], "lamp"), "emission_side": "front"},
         disk([0.5, 0.95, -0.5], [0, -1, 0], 0.1, "spot"),
         sphere([-0.1, -0.75, 0.15], 0.2, "glass"),
         mesh(icosphere(1), "glass", translate=[-0.5, -0.6, -0.6], scale=0.3, smooth=False),
         *DRINK,
     )
+    sky = under(spot(10, 1) + np.float32(0.001)).background
+    return indoors.model_copy(update={"background": sky})
 
 
 def shared_places() -> Scene:

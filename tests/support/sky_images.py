@@ -31,10 +31,11 @@ def random_sky(width: int, height: int, seed: int = 1) -> Pixels:
 def under(pixels: Pixels, *objects: dict[str, Any], **background: Any) -> Scene:
     """Matte things under an image of the sky that needs no file."""
     mirror = {"type": "metal", "color": [1, 1, 1]}
-    materials = {"m": MATTE, "mirror": mirror, "glass": glass()}
+    materials = {"m": MATTE, "mirror": mirror, "glass": glass(), **background.pop("materials", {})}
     camera = background.pop("camera", {})
+    sun = {"sun": background.pop("sun")} if "sun" in background else {}
     sky = {"image": "sky.exr", **background}
-    scene = scene_of(list(objects), materials, camera, background=sky)
+    scene = scene_of(list(objects), materials, camera, background=sky, **sun)
     read = ImageFile(file="sky.exr").read_as(f"{pixels.tobytes().__hash__():064x}", pixels, None)
     shown = scene.background.model_copy(update={"image": read})
     return scene.model_copy(update={"background": shown})
