@@ -24,8 +24,8 @@ Array = np.ndarray[Any, Any]
 UNIT_BITS = 40  # bits of the brightest lamp's radiance, in the unit of a particle's splat
 LEAST_SHARE = 0.1  # least share of particles from the sun, the sky and the lamps, next to others
 NOWHERE = Ball(np.zeros(3), 0.0)
-_OFF = ("particles", "aimed", "splat_unit", "linked", "linked_groups", "bounds_radius")
-_NONE_FROM_AFAR = {"from_sun": 0.0, "from_sky": 0.0}
+FROM_AFAR = ("from_sun", "from_sky")
+_OFF = ("particles", "aimed", "splat_unit", "linked", "linked_groups", "bounds_radius", *FROM_AFAR)
 
 
 def particle_fields(plan: Plan) -> dict[str, object]:
@@ -35,7 +35,7 @@ def particle_fields(plan: Plan) -> dict[str, object]:
     """
     scene, settings, particles = plan.scene, plan.settings, plan.facts.particles
     if settings.caustics == "off":
-        return {**dict.fromkeys(_OFF, 0), "bounds_center": (0.0, 0.0, 0.0), **_NONE_FROM_AFAR}
+        return {**dict.fromkeys(_OFF, 0), "bounds_center": (0.0, 0.0, 0.0)}
     brightest = max([max(scene.emission_of(lamp)) for lamp in particles.lamps], default=0.0)
     ball = plan.bounds or NOWHERE
     return {
@@ -77,8 +77,7 @@ def _from_the_sky(particles: ParticleFacts) -> float:
 def shares_from_afar(particles: ParticleFacts, bounds: Ball) -> dict[str, float]:
     """Return the shares of the particles that leave the sun and the sky, as fields of the frame.
 
-    They are those of the flux through the ball around the scene, of the sky by its bright spots.
-    Next to other lights each is at least LEAST_SHARE, and so is that of the lamps.
+    They follow the flux through the ball around the scene; of the sky, bright spots count alone.
     """
     scene, lamps = particles.scene, particles.lamps
     area = math.pi * bounds.radius**2
@@ -92,21 +91,21 @@ def shares_from_afar(particles: ParticleFacts, bounds: Ball) -> dict[str, float]
     if lamps:
         each = (sum(scene.emission_of(lamp)) * math.pi * 4 * lamp.reach**2 for lamp in lamps)
         fluxes["lamps"] = sum(each)
-    return {**_NONE_FROM_AFAR, **_shares_of(fluxes)}
+    return shares_of(fluxes)
 
 
-def _shares_of(fluxes: dict[str, float]) -> dict[str, float]:
-    """Return the shares of some of the senders; those of the lamps are the rest."""
+def shares_of(fluxes: dict[str, float]) -> dict[str, float]:
+    """Return the shares of the sun and the sky, by the fluxes of all senders.
+
+    A smaller share becomes LEAST_SHARE, and the others divide the rest. Lamps have what is left.
+    """
     total = sum(fluxes.values())
     even = 1 / len(fluxes) if fluxes else 0.0
     shares = {name: it / total if total > 0 else even for name, it in fluxes.items()}
     rare = {name for name, share in shares.items() if share < LEAST_SHARE and len(shares) > 1}
     left = (1 - LEAST_SHARE * len(rare)) / (1 - sum(shares[name] for name in rare)) if rare else 1.0
-    return {
-        name: LEAST_SHARE if name in rare else left * share
-        for name, share in shares.items()
-        if name != "lamps"
-    }
+    found = {name: LEAST_SHARE if name in rare else left * it for name, it in shares.items()}
+    return {name: found.get(name, 0.0) for name in FROM_AFAR}
 
 
 def with_particles(arrays: Arrays, plan: Plan) -> dict[str, Array]:

@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from glrt.core.memo import computed_once
+from glrt.scene.lights.sky_image import bright_share
 from glrt.scene.materials.base import Opaque
 from glrt.scene.materials.dielectric import Dielectric
 from glrt.scene.materials.kinds import Material, glass_of
@@ -21,9 +22,7 @@ BITS = 31  # bits of a number in the shaders, one for each sphere
 TOUCHING = 1e-6  # share of a radius: a shape that reaches no deeper into a sphere touches it
 MOST_TARGETS = 8  # balls around other shapes, at which particles are aimed
 ROUGHEST = 0.4**2  # alpha of metal that makes caustics: roughness 0.4
-BRIGHT = 16.0  # times the mean radiance of an image of the sky: particles pay from there on
 LEAST_BRIGHT = 0.05  # of the sky's flux, below which it sends none next to other lights
-TINY = 1e-300
 GROUP = 64  # particles that one work group follows at a time: shaders_glsl/particles.comp
 
 
@@ -87,41 +86,28 @@ class ParticleFacts:
 
     @computed_once
     def sky_sends(self) -> bool:
-        """Whether the sky sends particles: some shape has bounds, and the sky is the only light.
+        """Whether the sky sends particles; some shape must have bounds.
 
-        Next to lamps and the sun, it is one whose image has bright spots. No plane of tinted glass
-        nor of one with a priority may be there then: part of the sky is behind it.
+        It does where it is the only light. Next to lamps or the sun, its image must have bright
+        spots, and no plane may be of tinted glass or have a priority: the sky is behind it, too.
         """
         if not self._is_finite or not any(map(any, self.scene.background_colors)):
             return False
         if not self.lamps and not any(self.scene.sun_radiance):
             return True
-        return self.bright_sky >= LEAST_BRIGHT and not any(map(self._is_dense, self._planes))
-
-    @property
-    def _planes(self) -> list[Object]:
-        return [thing for thing in self.scene.visible if not thing.is_bounded]
+        planes = (thing for thing in self.scene.visible if not thing.is_bounded)
+        return self.bright_sky >= LEAST_BRIGHT and not any(map(self._is_dense, planes))
 
     def _is_dense(self, thing: Object) -> bool:
+        """Return whether light weakens or ranks behind an object: no particles start there."""
         glass = glass_of(self.scene.materials[thing.material])
         return glass is not None and (any(glass.absorption) or glass.priority is not None)
 
-    @computed_once
+    @property
     def bright_sky(self) -> float:
-        """The share of the flux of a sky's image that comes from its bright spots; 0 without any.
-
-        Pixels count as bright from BRIGHT times the mean radiance on. Other skies have none.
-        """
-        if not self.scene.background.image or not self.scene.sky:
-            return 0.0
-        pixels = self.scene.sky.pixels
-        if pixels is None:
-            return 0.0
-        light = pixels[..., :3].mean(axis=-1, dtype=np.float64)
-        heights = np.pi * (np.arange(len(light)) + 0.5) / len(light)
-        flux = light * np.sin(heights)[:, None]
-        mean = flux.mean() / np.sin(heights).mean()
-        return float(flux[light >= BRIGHT * mean].sum() / max(flux.sum(), TINY))
+        """The share of the sky's flux from bright spots of its image; 0 for other skies."""
+        image = self.scene.background.image
+        return 0.0 if image is None or image.pixels is None else bright_share(image.pixels)
 
     @computed_once
     def targets(self) -> list[Ball]:

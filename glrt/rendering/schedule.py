@@ -87,9 +87,11 @@ def rounds_for_particles(plan: Plan) -> int:
     if settings.caustics == "off":
         return 0
     spheres = 1 + plan.facts.shapes["sphere"]
-    weighed = 2 * spheres if settings.aimed and particles.casters else 0
-    if settings.aimed and particles.targets:
-        weighed += 2 * (1 + len(particles.targets))
+    targets = 1 + len(particles.targets) if particles.targets else 0
+    # Light that a segment meets is weighed, and a sample of each kind of light.
+    kinds = bool(particles.lamps) + (plan.scene.sun is not None) + particles.sky_sends
+    aims = (spheres if particles.casters else 0) + targets if settings.aimed else 0
+    weighed = (1 + kinds) * aims
     if plan.scene.sun or particles.sky_sends:
         weighed += 1 + plan.facts.shapes["plane"]
     linked = settings.linked and particles.links

@@ -7,13 +7,15 @@ import pytest
 from numpy.testing import assert_allclose
 
 from glrt.gpu.context import Context
-from glrt.packing.particles import shares_from_afar
+from glrt.packing.particles import shares_from_afar, shares_of
 from glrt.plan.facts import SceneFacts
 from glrt.plan.features import needs_of
 from glrt.plan.particles import ball_around
+from glrt.plan.plan import prepare
+from glrt.rendering.schedule import rounds_for_particles
 from glrt.scene.files.named_images import Pixels
 from glrt.scene.scene import Scene
-from glrt.settings import settings_for
+from glrt.settings import Settings, settings_for
 from tests.conftest import CallGlsl
 from tests.support.builders import box, cylinder, glass, lamp, plane, scene_of, sphere
 from tests.support.images import same_bits
@@ -27,6 +29,9 @@ CAMERA: dict[str, Any] = {"position": [0, 0, 0.9], "look_at": [0, -0.3, -1], "fo
 BALL = sphere([0.35, -0.6, -0.3], 0.35, "glass")
 TUBE = cylinder([-0.5, -1, -0.5], [-0.5, -0.4, -0.5], 0.2, "glass")
 FLOOR = box([-2, -1.1, -2.5], [2, -1, 1], "m")
+BULB = sphere([-0.3, 0.8, -0.9], 0.15, "bulb")
+FLUX_OF_BULB = 8 * np.pi * 4 * np.pi * 0.15**2
+SUN = {"direction": [0.5, 1, 0.4], "angle": 4.0, "irradiance": [1.2, 0.9, 0.6]}
 DOME = {"bottom": [0.1, 0.1, 0.1], "horizon": [0.5, 0.5, 0.5], "top": [2, 1, 3]}
 KINDS: dict[str, dict[str, Any]] = {
     "m": {"type": "lambertian", "color": [0.6, 0.5, 0.4]},
@@ -34,13 +39,6 @@ KINDS: dict[str, dict[str, Any]] = {
     "glass": glass(),
     "lamp": lamp(),
 }
-
-
-BULB = sphere([-0.3, 0.8, -0.9], 0.15, "bulb")
-SUN = {"direction": [0.5, 1, 0.4], "angle": 4.0, "irradiance": [1.2, 0.9, 0.6]}
-
-
-FLUX_OF_BULB = 8 * np.pi * 4 * np.pi * 0.15**2
 
 
 def sky_flux(scene: Scene, count: int = 1_000_000) -> float:
@@ -108,14 +106,10 @@ def test_the_error_falls_where_a_small_sun_shines_through_glass(context: Context
 @pytest.mark.parametrize("name", ["image", "image and a lamp", "image, a lamp and the sun"])
 def test_lines_from_the_sky_have_a_density(call_glsl: CallGlsl, name: str) -> None:
     """Its integral over all directions, and the area across them, is the sky's share."""
-    things = [BULB] * ("lamp" in name), {"sun": SUN} if "sun" in name else {}
-    scene = sun_in_an_image(FLOOR, BALL, *things[0], **things[1])
-    particles = SceneFacts(scene).particles
-    assert particles.sky_sends
-    assert particles.bounds
-    share = shares_from_afar(particles, particles.bounds)["from_sky"]
+    scene = SKIES[name]
     around = ball_around(scene)
     assert around
+    share = shares_from_afar(SceneFacts(scene).particles, around)["from_sky"]
     eye = np.array(scene.camera.position)
     towards = directions(400_000)
     random = np.random.default_rng(5)
@@ -147,11 +141,11 @@ def test_particles_carry_the_flux_of_the_sky(call_glsl: CallGlsl, particle_files
 
 def test_each_light_sends_its_flux_in_its_share(call_glsl: CallGlsl, particle_files: str) -> None:
     """In an image, a lamp and the sun: flux through the ball around the scene, or of the lamp."""
-    scene = sun_in_an_image(FLOOR, BALL, BULB, sun=SUN)
-    particles = SceneFacts(scene).particles
-    assert particles.bounds
-    across = np.pi * particles.bounds.radius**2
-    shares = shares_from_afar(particles, particles.bounds)
+    scene = SKIES["image, a lamp and the sun"]
+    around = ball_around(scene)
+    assert around
+    across = np.pi * around.radius**2
+    shares = shares_from_afar(SceneFacts(scene).particles, around)
     fluxes = {
         "sky": sky_flux(scene) * across,
         "sun": 1.2 * across,
@@ -212,6 +206,34 @@ def test_a_sky_with_a_bright_spot_sends_particles_next_to_a_lamp(
     water = plane([0, -1.5, 0], [0, 1, 0], "tinted")
     scene = under(pixels, FLOOR, BULB, water, materials=bulb | tinted)
     assert not SceneFacts(scene).particles.sky_sends
+
+
+@pytest.mark.parametrize(("name", "weighed"), [("image", 2), ("image, a lamp and the sun", 4)])
+def test_each_kind_of_light_is_weighed_in_the_limit_of_loops(name: str, weighed: int) -> None:
+    """Against the spheres and the line of a particle from afar, at each vertex."""
+    settings = Settings(caustics="on", aimed=0.5, linked=0.0, bounces=3)
+    spheres = 1 if weighed == 2 else 2
+    assert rounds_for_particles(prepare(SKIES[name], settings)) == 4 * (weighed * (1 + spheres) + 1)
+
+
+@pytest.mark.parametrize(
+    ("fluxes", "sun", "sky"),
+    [
+        ({"from_sky": 2.0}, 0, 1),
+        ({"from_sun": 0.0}, 1, 0),
+        ({"from_sun": 3.0, "lamps": 1.0}, 0.75, 0),
+        ({"from_sun": 1e9, "lamps": 1.0}, 0.9, 0),
+        ({"from_sky": 0.0, "lamps": 0.0}, 0, 0.5),
+        ({"from_sun": 6.0, "from_sky": 3.0, "lamps": 1e-9}, 0.6, 0.3),
+        ({"from_sun": 1e-9, "from_sky": 1e-9, "lamps": 5.0}, 0.1, 0.1),
+        ({}, 0, 0),
+    ],
+)
+def test_each_light_has_a_share_of_a_tenth_at_least(
+    fluxes: dict[str, float], sun: float, sky: float
+) -> None:
+    found = shares_of(fluxes)
+    assert found == pytest.approx({"from_sun": sun, "from_sky": sky})
 
 
 def test_bright_spots_have_their_share_of_the_flux() -> None:

@@ -2,10 +2,15 @@
 
 from typing import NamedTuple
 
+import numpy as np
+
+from glrt.core.memo import kept_for_the_same
 from glrt.scene.files.named_images import ImageFile, Pixels
 from glrt.scene.lights.background import Background
 from glrt.scene.lights.clear_sky import sky_pixels
 from glrt.scene.lights.sun import Sun
+
+BRIGHT = 16.0  # times the mean radiance of an image, from which on a pixel is a bright spot
 
 
 class ModelSky(NamedTuple):
@@ -33,3 +38,17 @@ def sky_picture(background: Background, sun: Sun | None) -> SkyPicture | None:
     x, y, z = map(float, sun.towards)
     source = ModelSky(background.sky.turbidity, background.sky.ground, (x, y, z))
     return SkyPicture(source, "the clear sky", sky_pixels(*source))
+
+
+@kept_for_the_same
+def bright_share(pixels: Pixels) -> float:
+    """Return the share of the flux of an image, (H, W, 3), that comes from its bright spots.
+
+    A row counts by the sine of its angle from the pole.
+    """
+    light = pixels.mean(axis=-1, dtype=np.float64)
+    sines = np.sin(np.pi * (np.arange(len(light)) + 0.5) / len(light))[:, None]
+    flux = light * sines
+    total = float(flux.sum())
+    mean = total / (light.shape[1] * float(sines.sum()))
+    return float(flux[light >= BRIGHT * mean].sum()) / total if total > 0 else 0.0
