@@ -87,11 +87,10 @@ def rounds_for_particles(plan: Plan) -> int:
     if settings.caustics == "off":
         return 0
     spheres = 1 + plan.facts.shapes["sphere"]
-    targets = 1 + len(particles.targets) if particles.targets else 0
     # Light that a segment meets is weighed, and a sample of each kind of light.
     kinds = bool(particles.lamps) + (plan.scene.sun is not None) + particles.sky_sends
-    aims = (spheres if particles.casters else 0) + targets if settings.aimed else 0
-    weighed = (1 + kinds) * aims
+    balls = spheres * bool(particles.casters) + len(particles.targets) + bool(particles.targets)
+    weighed = (1 + kinds) * balls if settings.aimed else 0
     if plan.scene.sun or particles.sky_sends:
         weighed += 1 + plan.facts.shapes["plane"]
     linked = settings.linked and particles.links
