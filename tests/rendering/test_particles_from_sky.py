@@ -153,10 +153,12 @@ def test_each_light_sends_its_flux_in_its_share(call_glsl: CallGlsl, particle_fi
     }
     rest = 1 - shares["from_sun"] - shares["from_sky"]
     chances = {"sky": shares["from_sky"], "sun": shares["from_sun"], "lamp": rest}
-    lights = {"sky": "light == SKY_LIGHT", "sun": "light == SUN_LIGHT", "lamp": "light >= 0"}
-    sent = "vec2(particle.power.x, 1.0) * float(particle.{}) + 0.0 * n"
-    for name, light in lights.items():
-        found = starts(call_glsl, particle_files, scene, sent.format(light), "vec2")
+    sent = (
+        "vec3(particle.power.x, particle.light == SKY_LIGHT, particle.light == SUN_LIGHT) + 0.0 * n"
+    )
+    power, is_sky, is_sun = starts(call_glsl, particle_files, scene, sent, "vec3").T
+    for name, chosen in {"sky": is_sky, "sun": is_sun, "lamp": 1 - is_sky - is_sun}.items():
+        found = np.stack([power * chosen, chosen], axis=1)
         errors = found.std(axis=0) / np.sqrt(len(found))
         expected = [fluxes[name], chances[name]]
         assert np.all(np.abs(found.mean(axis=0) - expected) < 5 * errors), name
