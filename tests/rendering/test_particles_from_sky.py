@@ -102,7 +102,7 @@ def test_the_error_falls_where_a_small_sun_shines_through_glass(context: Context
     assert errors[1] < errors[0] / 1.3
 
 
-@pytest.mark.slow_cases("lamp")
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["image", "image and a lamp", "image, a lamp and the sun"])
 def test_lines_from_the_sky_have_a_density(call_glsl: CallGlsl, name: str) -> None:
     """Its integral over all directions, and the area across them, is the sky's share."""
