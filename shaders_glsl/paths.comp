@@ -129,6 +129,7 @@ void splat(vec2 film, vec3 radiance, int layer) {
 
 #include "integrators/particle_start.glsl"
 #include "integrators/camera_links.glsl"
+#include "integrators/lamp_links.glsl"
 #include "integrators/particles.glsl"
 
 vec3 lamp_normal(Light light, vec3 position) {
@@ -152,7 +153,6 @@ void replay_particle() {
     light_here.lane = lane;
     Sampler rng = sampler_at(ivec2(lane, -1), frame.first_sample, frame.seed);
     Particle particle = start_particle(rng);
-    if (particle.power == vec3(0.0)) return;
     Ray ray = particle.path.ray;
     vec3 normal = ray.direction;
     lamp = is_from_sky(particle.light) ? FROM_BACKGROUND : FROM_SUN;
@@ -165,8 +165,11 @@ void replay_particle() {
     here.event = EVENT_SENT;
     here.direction = ray.direction;
     here.pdf = particle.emission;
-    bool is_linked = lane / PARTICLE_GROUP < frame.linked_groups;
-    while (extend_particle(particle, is_linked, rng)) {}
+    int group = lane / PARTICLE_GROUP;
+    bool is_linked = group < frame.linked_groups;
+    Sampler of_links = rng;
+    if (LINKS_LAMPS && group < frame.lamp_groups) link_lamp(particle, is_linked, of_links);
+    if (particle.power != vec3(0.0)) while (extend_particle(particle, is_linked, rng)) {}
     write_vertex();
     if (loop_was_cut) atomicAdd(lost_samples, 1u);
 }

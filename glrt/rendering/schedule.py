@@ -95,7 +95,8 @@ def rounds_for_particles(plan: Plan) -> int:
         weighed += 1 + plan.facts.shapes["plane"]
     linked = settings.linked and particles.links
     links = 2 + LINK_ROUNDS + spheres + 2 * rounds_of_search(plan.facts) if linked else 0
-    return (settings.bounces + 1) * (weighed + links)
+    of_lamps = 2 + _rounds_of_choice(plan.facts) + 2 * balls + rounds_of_search(plan.facts) + links
+    return (settings.bounces + 1) * (weighed + links) + of_lamps * bool(particles.lamps)
 
 
 def rounds_for_reuse(plan: Plan) -> int:

@@ -92,45 +92,78 @@ Way way_of(Arc arc, vec3 center, Crossing at, float sense) {
     return Way(near, far, direction);
 }
 
-// Links a particle to the eye through one sphere, by one way drawn at random, and adds the light.
-void link_through_sphere(Particle self, Meeting from, Eye eye, inout Sampler rng) {
-    Ray ray = from.ray;
+// A way to the eye through one sphere.
+struct Through {
+    int sphere;
+    Material material;
+    Arc arc;
+    Crossing at;
+    Way way;
+    vec3 direction;  // unit, from the point that is linked
+    float distance;  // from there to the sphere
+    vec2 place;      // on the film
+};
+
+// Draws a way from a point to the eye at random; false where there is none. `events`: how often a path is scattered
+// from the lamp to this point, and there.
+bool draw_link(vec3 from, int events, Eye eye, inout Sampler rng, out Through link) {
     vec2 pick = next_2d(rng);
     float by_branch = next_1d(rng);
     int count = bitCount(LINKED);
-    int index = sphere_of(LINKED, min(int(pick.x * float(count)), count - 1));
-    Sphere sphere = sphere_at(index);
-    Material material = material_at(sphere.material);
-    int chords = draw_chords(material, pick.y);
-    Arc arc = arc_of(eye.position, ray.origin, sphere, material.ior, chords);
-    if (self.path.depth + 2 + chords > frame.bounces || !has_links(arc)) return;
-    Branch branch = draw_branch(arc, by_branch);
-    float half_tangent = meeting_of(arc, branch);
-    if (half_tangent < 0.0) return;
-    Crossing at = crossing_of(arc, incidence_of(half_tangent).sine);
-    Way way = way_of(arc, sphere.center, at, sense_of(branch, chords));
-    vec3 away = way.far - ray.origin;
-    float distance = length(away);
-    ray.direction = away / distance;
+    link.sphere = sphere_of(LINKED, min(int(pick.x * float(count)), count - 1));
+    Sphere sphere = sphere_at(link.sphere);
+    link.material = material_at(sphere.material);
+    int chords = draw_chords(link.material, pick.y);
+    link.arc = arc_of(eye.position, from, sphere, link.material.ior, chords);
+    if (events + 1 + chords > frame.bounces || !has_links(link.arc)) return false;
+    Branch branch = draw_branch(link.arc, by_branch);
+    float half_tangent = meeting_of(link.arc, branch);
+    if (half_tangent < 0.0) return false;
+    link.at = crossing_of(link.arc, incidence_of(half_tangent).sine);
+    link.way = way_of(link.arc, sphere.center, link.at, sense_of(branch, chords));
+    vec3 away = link.way.far - from;
+    link.distance = length(away);
+    link.direction = away / link.distance;
+    link.place = place_on_film(link.way.direction, eye.lens);
+    return dot(link.way.direction, frame.camera.forward) > 0.0 && is_on_film(link.place);
+}
+
+// rho of particle_weights.glsl for such a way, times the density of the particles; 0: no link. `cosine`: at the normal
+// of the point that is linked.
+float rho_of_drawn(Through link, float cosine) {
+    float film = pdf_camera(link.way.direction);
+    float pdf = pdf_of_way(film, link.material, link.arc, link.at, cosine);
+    return pdf / linked_this_way(link.material, link.arc, link.at);
+}
+
+// Whether something hides the eye along the way; `ray` goes from the point to the sphere.
+bool is_hidden(Through link, Ray ray, Eye eye) {
+    if (occluded(ray, link.distance, link.sphere)) return true;
+    vec3 back = eye.position - link.way.near;
+    float reach = length(back);
+    return occluded(Ray(link.way.near, back / reach, link.sphere, false), reach, link.sphere);
+}
+
+// Links a particle to the eye through one sphere, by one way drawn at random, and adds the light.
+void link_through_sphere(Particle self, Meeting from, Eye eye, inout Sampler rng) {
+    Through link;
+    Ray ray = from.ray;
+    if (!draw_link(ray.origin, self.path.depth + 1, eye, rng, link)) return;
+    ray.direction = link.direction;
     vec3 wi = to_local(from.vertex.frame, ray.direction);
-    vec2 place = place_on_film(way.direction, eye.lens);
-    bool is_seen = dot(way.direction, frame.camera.forward) > 0.0 && is_on_film(place);
-    if (!leaves_so(from.vertex, wi, ray) || !is_seen) return;
-    float film = pdf_camera(way.direction);
-    float rho = pdf_of_way(film, material, arc, at, abs(wi.z)) / linked_this_way(material, arc, at);
-    if (rho == 0.0) return;  // no link: with an infinite kappa its weight would be 0
+    if (!leaves_so(from.vertex, wi, ray)) return;
+    float rho = rho_of_drawn(link, abs(wi.z));
+    if (rho == 0.0) return;  // with an infinite kappa the weight would be 0
     Turn turn = turn_of_link(from.vertex, from.normals, -self.path.ray.direction, ray.direction);
     if (turn.turn == 0.0) return;
     float weight = weight_of_link(self, rho / self.emission, turn.turn);
-    vec3 back = eye.position - way.near;
-    float reach = length(back);
-    vec3 flux = self.power * self.path.throughput * tint_of(material, arc, at);
-    if (HAS_ATTENUATION) flux *= share_left(wi.z < 0.0 ? from.behind : self.path.absorption, distance + reach);
+    float distance = link.distance + length(eye.position - link.way.near);
+    vec3 flux = self.power * self.path.throughput * tint_of(link.material, link.arc, link.at);
+    if (HAS_ATTENUATION) flux *= share_left(wi.z < 0.0 ? from.behind : self.path.absorption, distance);
     vec3 value = flux * turn.value * (frame.particles * rho * weight);
-    if (value == vec3(0.0) || occluded(ray, distance, index)) return;
-    if (occluded(Ray(way.near, back / reach, index, false), reach, index)) return;
+    if (value == vec3(0.0) || is_hidden(link, ray, eye)) return;
     record_link(self.emission, rho, weight);
-    splat(place, value, layer_of(self, self.path.depth + 2 + chords));
+    splat(link.place, value, layer_of(self, self.path.depth + 2 + link.arc.chords));
 }
 
 // Links a particle to the camera at a surface that is not smooth. `by_spheres`: also through one of the linked spheres.

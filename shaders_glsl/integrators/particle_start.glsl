@@ -1,6 +1,16 @@
 // Particles: paths from the lamps. A particle is followed like a path from the camera, but it carries flux, which
 // refraction does not scale.
 
+// A point on a lamp, and the normal on the side where a particle leaves.
+struct Leaving {
+    vec3 position;
+    vec3 normal;
+    int material;
+    bool is_front;
+};
+
+const Leaving FROM_AFAR = Leaving(vec3(0.0), vec3(0.0), 0, true);
+
 struct Particle {
     Path path;       // throughput and the media around the path; no radiance
     vec3 power;      // of the lamp, over the density `emission`
@@ -9,14 +19,7 @@ struct Particle {
     float turn;      // P0 over PL of its scattering events so far
     int light;
     int layer;       // of the light group of the lamp
-};
-
-// A point on a lamp, and the normal on the side where a particle leaves.
-struct Leaving {
-    vec3 position;
-    vec3 normal;
-    int material;
-    bool is_front;
+    Leaving start;   // FROM_AFAR for the sun and the sky
 };
 
 Leaving leave_flat(vec3 position, vec3 normal, int material, bool back) {
@@ -47,7 +50,7 @@ Leaving place_on(Light light, vec2 u, bool back) {
         vec3 position = quad.corner + u.x * quad.edge_u + u.y * quad.edge_v;
         return leave_flat(position, quad.normal, quad.material, back);
     }
-    return Leaving(vec3(0.0), vec3(0.0), 0, true);
+    return FROM_AFAR;
 }
 
 // A direction towards a ball, drawn evenly over the cone that the ball fills; 0 from inside the ball.
@@ -93,7 +96,7 @@ Particle start_from_sun(int aim, vec2 u, vec2 v) {
     float emission = pdf_from_sun(ray.origin, -towards, aim);
     vec3 power = vec3(0.0);
     if (emission > 0.0) power = frame.sun_radiance * (PI / emission);
-    return Particle(particle_path(ray), power, emission, 0.0, 1.0, SUN_LIGHT, SUN_LAYER);
+    return Particle(particle_path(ray), power, emission, 0.0, 1.0, SUN_LIGHT, SUN_LAYER, FROM_AFAR);
 }
 
 // `aim`: see start_from_sun.
@@ -108,7 +111,7 @@ Particle start_from_sky(int aim, vec2 v, inout Sampler rng) {
     float emission = pdf_from_sky(ray.origin, -towards, aim);
     vec3 power = vec3(0.0);
     if (emission > 0.0) power = background(towards) * (PI / emission);
-    return Particle(particle_path(ray), power, emission, 0.0, 1.0, SKY_LIGHT, BACKGROUND_LAYER);
+    return Particle(particle_path(ray), power, emission, 0.0, 1.0, SKY_LIGHT, BACKGROUND_LAYER, FROM_AFAR);
 }
 
 Particle start_particle(inout Sampler rng) {
@@ -144,5 +147,5 @@ Particle start_particle(inout Sampler rng) {
     vec3 power = vec3(0.0);
     if (emission > 0.0 && direction != vec3(0.0)) power = emitted(material, direction, is_front) * (PI / emission);
     Path path = particle_path(Ray(leaving.position, direction, light.shape, false));
-    return Particle(path, power, emission, 0.0, 1.0, index, material.layer);
+    return Particle(path, power, emission, 0.0, 1.0, index, material.layer, leaving);
 }

@@ -73,7 +73,9 @@ float emission_beside_approach(Path path, Ray start, Hit hit, int light) {
 }
 
 // `emission_weight` of the emission that a segment meets. The segment may have passed holes.
-float weight_of_emission(Path path, Hit hit, int light) {
+float weight_of_emission(Path path, Hit hit, Surface surface) {
+    int light = surface.light;
+    if (sees_lamps(path) && light != NO_LIGHT) return weight_of_seen_lamp(path, surface);
     if (HAS_PARTICLES && path.rivals.rho > 0.0 && light != NO_LIGHT) {
         float kappa = 0.0;
         if (path.pdf > 0.0) kappa = pdf_light(light, path.ray, hit.distance, path.lamps) / path.pdf;
@@ -265,7 +267,7 @@ bool extend_path(inout Path path, inout Sampler rng) {
     }
     Surface surface = surface_at(path.ray, hit);
     Material material = material_of(path.ray, surface);
-    float share = weight_of_emission(path, hit, surface.light);
+    float share = weight_of_emission(path, hit, surface);
     bool enters = dot(path.ray.direction, true_normal(surface)) < 0.0;
     absorb(path, material, !enters, hit.distance);
     vec3 arriving = path.scale * path.throughput;

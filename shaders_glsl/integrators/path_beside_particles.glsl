@@ -27,3 +27,26 @@ float path_turn(Path path, Meeting at, vec3 wi, float pdf, bool is_linked) {
     bool is_smooth = is_delta(at.vertex.material);
     return turn_around(at.vertex.frame[2], at.normals.facing, wi, -path.ray.direction, is_smooth);
 }
+
+// Whether the path sees a lamp, if its next segment meets one: straight, or through one sphere.
+bool sees_lamps(Path path) {
+    return LINKS_LAMPS && (path.depth == 0 || LINKED != 0 && path.rivals.chain.state == LINKING);
+}
+
+// Weight of the emission of a lamp that such a segment meets.
+float weight_of_seen_lamp(Path path, Surface surface) {
+    vec3 direction = path.ray.direction;
+    float density = density_on_lamp(surface.light, surface.position, -direction);
+    float cosine = abs(dot(direction, true_normal(surface)));
+    float rho = 0.0;
+    if (path.depth > 0) {
+        rho = linked_a_lamp_link() * rho_of_link(path.rivals.chain, surface.position, cosine);
+    } else {
+        float seen = pdf_film(direction, cosine, length(surface.position - path.ray.origin));
+        rho = seen / (frame.particles * frame.lamp_links);
+    }
+    if (density == 0.0 || rho == 0.0) return 1.0;  // nothing is linked so
+    float weight = weight_beside_links(rho / density);
+    record_weight(density, weight);
+    return weight;
+}
