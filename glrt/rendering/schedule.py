@@ -82,21 +82,20 @@ def iterations_per_sample(plan: Plan, tree_rounds: float = TREE_ROUNDS) -> int:
 
 
 def rounds_for_particles(plan: Plan) -> int:
-    """Additional rounds: weights of paths against aimed particles, and links through spheres."""
+    """Additional rounds: weights of paths against particles, and links to the camera."""
     settings, particles = plan.settings, plan.facts.particles
     if settings.caustics == "off":
         return 0
     spheres = 1 + plan.facts.shapes["sphere"]
     # Light that a segment meets is weighed, and a sample of each kind of light.
-    kinds = bool(particles.lamps) + (plan.scene.sun is not None) + particles.sky_sends
+    far = (plan.scene.sun is not None) + particles.sky_sends
     balls = spheres * bool(particles.casters) + len(particles.targets) + bool(particles.targets)
-    weighed = (1 + kinds) * balls if settings.aimed else 0
-    if plan.scene.sun or particles.sky_sends:
-        weighed += 1 + plan.facts.shapes["plane"]
-    linked = settings.linked and particles.links
-    links = 2 + LINK_ROUNDS + spheres + 2 * rounds_of_search(plan.facts) if linked else 0
-    of_lamps = 2 + _rounds_of_choice(plan.facts) + 2 * balls + rounds_of_search(plan.facts) + links
-    return (settings.bounces + 1) * (weighed + links) + of_lamps * bool(particles.lamps)
+    weighed = (1 + far + bool(particles.lamps)) * balls if settings.aimed else 0
+    weighed += bool(far) * (1 + plan.facts.shapes["plane"])
+    search = rounds_of_search(plan.facts)
+    links = 2 + LINK_ROUNDS + spheres + 2 * search if settings.linked and particles.links else 0
+    start = 3 + plan.facts.clusters + 2 * balls + search if particles.lamps else 0
+    return (settings.bounces + 1) * (weighed + links) + start + bool(start) * links
 
 
 def rounds_for_reuse(plan: Plan) -> int:

@@ -1,5 +1,6 @@
 // Links of lamps to the camera, from the points where particles leave them: straight, or through one sphere. This
-// light is not scattered by a rough surface. `splat` takes the value that a link brings.
+// light meets no rough surface, and nothing absorbs it, since no lamp is in tinted glass. `splat` takes the value that
+// a link brings.
 
 // Links the point straight to the eye.
 void link_lamp_straight(Particle self, Eye eye) {
@@ -16,7 +17,6 @@ void link_lamp_straight(Particle self, Eye eye) {
     float linked = frame.particles * frame.lamp_links * density;
     float weight = weight_of_lamp_link(seen / linked);
     vec3 radiance = emitted(material_at(start.material), direction, start.is_front);
-    if (HAS_ATTENUATION) radiance *= share_left(frame.camera_absorption, distance);
     vec3 value = radiance * (frame.particles * seen * weight / linked);
     Ray ray = Ray(start.position, direction, self.path.ray.origin_shape, false);
     if (value == vec3(0.0) || occluded(ray, distance, NO_SHAPE)) return;
@@ -37,8 +37,6 @@ void link_lamp_through_sphere(Particle self, Eye eye, inout Sampler rng) {
     float weight = weight_of_lamp_link(rho / density);
     vec3 radiance = emitted(material_at(start.material), link.direction, start.is_front);
     radiance *= tint_of(link.material, link.arc, link.at);
-    float distance = link.distance + length(eye.position - link.way.near);
-    if (HAS_ATTENUATION) radiance *= share_left(frame.camera_absorption, distance);
     vec3 value = radiance * (frame.particles * rho * weight / density);
     Ray ray = Ray(start.position, link.direction, self.path.ray.origin_shape, false);
     if (value == vec3(0.0) || is_hidden(link, ray, eye)) return;

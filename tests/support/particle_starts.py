@@ -19,7 +19,11 @@ from tests.support.builders import (
 from tests.support.meshes import mesh
 from tests.support.numerics import Array
 
-FILES = ("integrators/particle_start.glsl", "integrators/camera_links.glsl")
+FILES = (
+    "integrators/particle_start.glsl",
+    "integrators/camera_links.glsl",
+    "integrators/lamp_links.glsl",
+)
 ON: dict[str, Any] = {"caustics": "on", "linked": 0.0}
 MATERIALS = {"glass": glass(), "lamp": lamp(2.0), "matte": MATTE}
 FLAT = quad([-0.5, 1, -3.5], [1, 0, 0], [0, 0, 0.8], "lamp")
