@@ -64,8 +64,7 @@ void splat(vec2 place, vec3 radiance, int layer) {
 
 void main() {
     int group = frame.first_tile + int(gl_WorkGroupID.x);
-    int lane = 64 * group + int(gl_LocalInvocationIndex);
-    int lost = add_particles(lane, group < frame.linked_groups, group < frame.lamp_groups);
+    int lost = add_particles(64 * group + int(gl_LocalInvocationIndex), group < frame.linked_groups);
     if (own_clipped > 0u) atomicAdd(clipped, own_clipped);
     if (own_refused > 0u) atomicAdd(refused, own_refused);
     if (COUNT_RAYS) add_to_pixel(ivec2(0), vec3(rays_so_far * frame.particles), 0);  // a mean over the frame

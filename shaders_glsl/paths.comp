@@ -165,10 +165,9 @@ void replay_particle() {
     here.event = EVENT_SENT;
     here.direction = ray.direction;
     here.pdf = particle.emission;
-    int group = lane / PARTICLE_GROUP;
-    bool is_linked = group < frame.linked_groups;
+    bool is_linked = lane / PARTICLE_GROUP < frame.linked_groups;
     Sampler of_links = rng;
-    if (LINKS_LAMPS && group < frame.lamp_groups) link_lamp(particle, is_linked, of_links);
+    if (LINKS_LAMPS) link_lamp(particle, is_linked, of_links);
     if (particle.power != vec3(0.0)) while (extend_particle(particle, is_linked, rng)) {}
     write_vertex();
     if (loop_was_cut) atomicAdd(lost_samples, 1u);

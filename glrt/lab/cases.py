@@ -44,6 +44,7 @@ _ALL = (
     Case("bulb", "A small lamp inside a glass sphere", glass.bulb),
     Case("caustic", "A glass sphere and a small lamp", glass.caustic),
     Case("focus", "A caustic of a lamp of any size", particles.focused),
+    Case("filament", "A tiny lamp that the camera sees", particles.in_view),
     Case("mirrored", "A caustic that a mirror ball shows", particles.mirrored),
     Case("ground", "A caustic of glass of any roughness", particles.ground),
     Case("refracted", "A caustic of glass of any index", particles.refracted),

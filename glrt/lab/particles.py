@@ -19,6 +19,7 @@ LINKED = {**PARTICLES, "linked": 1.0}
 WAYS: dict[str, dict[str, Any]] = {"mis, particles": PARTICLES, "mis": {}}
 RADIUS_OF_LAMP = "radius of the lamp; that of the glass ball is 0.5"
 MOST, MOST_GROUND = 0.35, 0.5  # relative RMS errors
+SEEN = 0.02  # relative error of the mean of a picture that shows one lamp
 CLOSEST = 1.0  # distance of the camera from the caustic that has a guarantee
 FLOOR = plane([0, 0, 0], [0, 1, 0], "floor")
 BALL = sphere([0, 0.8, 0], 0.5, "glass")
@@ -38,6 +39,31 @@ def mirrored(lab: Lab) -> Sweep:
     ways = {"mis, particles linked": LINKED, **WAYS}
     scenes = {radius: in_a_mirror(radius) for radius in RADII}
     return _errors(lab, RADIUS_OF_LAMP, scenes, ways, least=SAMPLES)
+
+
+def in_view(lab: Lab) -> Sweep:
+    """Error of a picture of one lamp that faces the camera, by its share of the picture.
+
+    Its flux stays the same, and the truth is a closed form: that flux over the picture's area.
+    """
+    shares = (0.1, 0.01, 1e-3, 1e-4, 1e-6, 1e-8)
+    samples = lab.count(SAMPLES, 32)
+    errors: dict[str, list[float]] = {name: [] for name in WAYS}
+    for share in shares:
+        scene = facing(share)
+        for name, way in WAYS.items():
+            image = lab.render(scene, samples, **SETTINGS, **way)
+            errors[name].append(abs(float(image.radiance.mean(dtype=float)) - 1))
+    first, *_ = WAYS
+    return Sweep(
+        parameter="area of the lamp over that of the picture",
+        measure="relative error of the picture's mean after 64 samples",
+        x=list(shares),
+        chosen=(first, errors.pop(first)),
+        others=errors,
+        promise=f"at most {SEEN:g} everywhere",
+        bound=[SEEN] * len(shares),
+    )
 
 
 def ground(lab: Lab) -> Sweep:
@@ -134,6 +160,20 @@ def under_a_ball(
     rest = [sphere([i % 8 - 4, 0.8, -2 - i // 8], 0.3, "glass") for i in range(balls - 1)]
     materials = _materials(radius) | ({"glass": material} if material else {})
     return scene_of([FLOOR, BALL, *rest, _lamp(radius)], materials, {**CAMERA, **camera})
+
+
+def facing(share: float) -> Scene:
+    """A disk that fills this share of a square picture, whose mean radiance is 1."""
+    wide = 2 * math.tan(math.radians(CAMERA["fov"]) / 2)
+    disk = {
+        "shape": "disk",
+        "center": [0.1 * wide, 0.1 * wide, -1],
+        "normal": [0, 0, 1],
+        "radius": wide * math.sqrt(share / math.pi),
+        "material": "lamp",
+    }
+    camera = {"position": [0, 0, 0], "look_at": [0, 0, -1], "fov": CAMERA["fov"]}
+    return scene_of([disk], {"lamp": lamp(1 / share)}, camera)
 
 
 def in_a_mirror(radius: float) -> Scene:

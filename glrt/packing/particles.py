@@ -12,7 +12,6 @@ from glrt.plan.lamp_sides import front_shares
 from glrt.plan.particles import (
     Ball,
     ParticleFacts,
-    lamp_groups,
     linked_groups,
     particle_groups,
     particles_a_sample,
@@ -26,8 +25,7 @@ UNIT_BITS = 40  # bits of the brightest lamp's radiance, in the unit of a partic
 LEAST_SHARE = 0.1  # least share of particles from the sun, the sky and the lamps, next to others
 NOWHERE = Ball(np.zeros(3), 0.0)
 FROM_AFAR = ("from_sun", "from_sky")
-_LINKS = ("linked", "linked_groups", "lamp_links", "lamp_groups")
-_OFF = ("particles", "aimed", "splat_unit", "bounds_radius", *_LINKS, *FROM_AFAR)
+_OFF = ("particles", "aimed", "splat_unit", "linked", "linked_groups", "bounds_radius", *FROM_AFAR)
 
 
 def particle_fields(plan: Plan) -> dict[str, object]:
@@ -46,8 +44,6 @@ def particle_fields(plan: Plan) -> dict[str, object]:
         "splat_unit": _unit(max(brightest, _from_the_sun(scene), _from_the_sky(particles))),
         "linked": linked_groups(settings) / particle_groups(settings),
         "linked_groups": linked_groups(settings),
-        "lamp_links": lamp_groups(settings) / particle_groups(settings),
-        "lamp_groups": lamp_groups(settings),
         "bounds_center": ball.center - np.array(scene.camera.position, np.float64),
         "bounds_radius": ball.radius,
         **shares_from_afar(particles, ball),

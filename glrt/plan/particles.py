@@ -23,8 +23,6 @@ TOUCHING = 1e-6  # share of a radius: a shape that reaches no deeper into a sphe
 MOST_TARGETS = 8  # balls around other shapes, at which particles are aimed
 ROUGHEST = 0.4**2  # alpha of metal that makes caustics: roughness 0.4
 LEAST_BRIGHT = 0.05  # of the sky's flux, below which it sends none next to other lights
-LAMP_LINKS = 1 / 8  # share of the particles that are linked where they leave lamps
-LEAST_GROUPS = 8  # of these particles
 GROUP = 64  # particles that one work group follows at a time: shaders_glsl/particles.comp
 
 
@@ -55,12 +53,6 @@ def linked_groups(settings: Settings) -> int:
     if not settings.linked:
         return 0
     return max(1, round(settings.linked * particle_groups(settings)))
-
-
-def lamp_groups(settings: Settings) -> int:
-    """Return how many work groups link their particles to the camera where these leave lamps."""
-    groups = particle_groups(settings)
-    return max(round(LAMP_LINKS * groups), min(LEAST_GROUPS, groups))
 
 
 def is_sampled(material: Material) -> bool:

@@ -2,19 +2,26 @@
 // light meets no rough surface, and nothing absorbs it, since no lamp is in tinted glass. `splat` takes the value that
 // a link brings.
 
+// The side of a flat lamp that faces `direction`, whichever side the particle leaves.
+Leaving facing(Particle self, vec3 direction) {
+    Leaving start = self.start;
+    if (is_sphere_lamp(light_at(self.light).shape) || dot(direction, start.normal) > 0.0) return start;
+    return Leaving(start.position, -start.normal, start.material, !start.is_front);
+}
+
 // Links the point straight to the eye.
 void link_lamp_straight(Particle self, Eye eye) {
-    Leaving start = self.start;
-    vec3 away = eye.position - start.position;
+    vec3 away = eye.position - self.start.position;
     float distance = length(away);
     vec3 direction = away / distance;
+    Leaving start = facing(self, direction);
     float cosine = dot(direction, start.normal);
     if (cosine <= 0.0 || dot(direction, frame.camera.forward) >= 0.0) return;
     vec2 place = place_on_film(-direction, eye.lens);
     float density = density_on_lamp(self.light, start.position, direction);
     if (density == 0.0 || !is_on_film(place)) return;
     float seen = pdf_film(-direction, cosine, distance);
-    float linked = frame.particles * frame.lamp_links * density;
+    float linked = frame.particles * density;
     float weight = weight_of_lamp_link(seen / linked);
     vec3 radiance = emitted(material_at(start.material), direction, start.is_front);
     vec3 value = radiance * (frame.particles * seen * weight / linked);
@@ -27,12 +34,12 @@ void link_lamp_straight(Particle self, Eye eye) {
 // Links the point to the eye through one sphere, by one way drawn at random.
 void link_lamp_through_sphere(Particle self, Eye eye, inout Sampler rng) {
     Through link;
-    Leaving start = self.start;
-    if (!draw_link(start.position, 0, eye, rng, link)) return;
+    if (!draw_link(self.start.position, 0, eye, rng, link)) return;
+    Leaving start = facing(self, link.direction);
     float cosine = dot(link.direction, start.normal);
     if (cosine <= 0.0) return;
     float density = density_on_lamp(self.light, start.position, link.direction);
-    float rho = linked_a_lamp_link() * rho_of_drawn(link, cosine);
+    float rho = rho_of_drawn(link, cosine);
     if (density == 0.0 || rho == 0.0) return;
     float weight = weight_of_lamp_link(rho / density);
     vec3 radiance = emitted(material_at(start.material), link.direction, start.is_front);

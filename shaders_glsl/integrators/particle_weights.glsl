@@ -63,11 +63,11 @@ const bool LINKS_LAMPS = HAS_PARTICLES && CLUSTERS > 0 && !HAS_COINCIDENT;
 // A ray from the camera counts as so many particles. A large lamp is even where rays meet it, and spotted by links.
 const float STEADY = 32.0;
 
-// Density of the points where particles leave a lamp, per area of the side that faces `direction`.
+// Density of the points of a lamp that are linked, per area of the side that faces `direction`.
 float density_on_lamp(int lamp, vec3 p, vec3 direction) {
     Aspect aspect = aspect_of(lamp, p, direction);
     if (aspect.cosine == 0.0) return 0.0;
-    float density = cluster_at(lamp).probability * aspect.by_cosine / aspect.area;
+    float density = cluster_at(lamp).probability / aspect.area;
     if (SKY_SENDS || HAS_SUN) density *= share_of_lamps();
     return density;
 }
@@ -75,6 +75,3 @@ float density_on_lamp(int lamp, vec3 p, vec3 direction) {
 // Weights of such a link, and of a ray that meets the lamp; `over`: the density of rays over that of links.
 float weight_of_lamp_link(float over) { return particle_weight(STEADY * over, 0.0); }
 float weight_beside_links(float over) { return particle_weight(1.0 / (STEADY * over), 0.0); }
-
-// Particles that are linked through spheres, over those that are so linked where they leave lamps; 1 at least.
-float linked_a_lamp_link() { return larger(frame.linked / frame.lamp_links, 1.0); }

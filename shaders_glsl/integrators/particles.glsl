@@ -117,11 +117,9 @@ bool extend_particle(inout Particle self, bool by_spheres, inout Sampler rng) {
 }
 
 // Traces the particles of one lane: as many as a pixel has samples. Returns how many are lost because the driver
-// ended a loop early. One loop runs over the segments of all particles, as in add_samples. `by_spheres`: see
-// link_to_camera. `of_lamps`: also links the points where they leave lamps.
-int add_particles(int lane, bool by_spheres, bool of_lamps) {
-    int rounds = LINKS_LAMPS && of_lamps ? 1 : 0;  // a loop, as in link_to_camera
-    for (int i = 0; i < rounds; ++i) link_lamps(lane, by_spheres);
+// ended a loop early. One loop runs over the segments of all particles, as in add_samples.
+int add_particles(int lane, bool by_spheres) {
+    if (LINKS_LAMPS) link_lamps(lane, by_spheres);
     int index = frame.first_sample;
     int end = index + frame.sample_count;
     Sampler rng = sampler_at(ivec2(lane, -1), index, frame.seed);

@@ -39,12 +39,8 @@ float weight_of_seen_lamp(Path path, Surface surface) {
     float density = density_on_lamp(surface.light, surface.position, -direction);
     float cosine = abs(dot(direction, true_normal(surface)));
     float rho = 0.0;
-    if (path.depth > 0) {
-        rho = linked_a_lamp_link() * rho_of_link(path.rivals.chain, surface.position, cosine);
-    } else {
-        float seen = pdf_film(direction, cosine, length(surface.position - path.ray.origin));
-        rho = seen / (frame.particles * frame.lamp_links);
-    }
+    if (path.depth > 0) rho = rho_of_link(path.rivals.chain, surface.position, cosine);
+    else rho = pdf_film(direction, cosine, length(surface.position - path.ray.origin)) / frame.particles;
     if (density == 0.0 || rho == 0.0) return 1.0;  // nothing is linked so
     float weight = weight_beside_links(rho / density);
     record_weight(density, weight);

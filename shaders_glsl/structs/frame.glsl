@@ -50,8 +50,6 @@ struct Frame {
     float aimed;            // share of the particles that is aimed at smooth spheres
     float linked;           // share that is also linked to the camera through spheres, where LINKED is not 0
     int linked_groups;      // work groups of these particles
-    float lamp_links;       // share that is linked to the camera where it leaves lamps, where LINKS_LAMPS
-    int lamp_groups;        // work groups of these particles
     float from_sun;         // share of the particles that leaves the sun
     float from_sky;         // share that leaves the sky, where SKY_SENDS
     vec3 probe_first;       // place of the first probe of the grid, relative to the camera; where HAS_PROBES

@@ -47,7 +47,7 @@ SLOW = (  # more than a second each, or many kernels
     *("crossing", "blur", "lengths"),
     *("flicker", "frosted", "denoised", "uncovered", "lag", "bright"),
     *("drawn", "sun", "frames", "bumps", "plastic", "fireflies", "ior"),
-    *("brushed", "soap", "velvet", "leaf", "bending", "neighbours", "panes"),
+    *("filament", "brushed", "soap", "velvet", "leaf", "bending", "neighbours", "panes"),
 )
 SWEEP = Sweep(
     parameter="size",
