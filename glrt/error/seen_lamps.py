@@ -30,6 +30,7 @@ Indices = NDArray[np.intp]
 MOST_SHAPES = 256  # in a scene: with more, no lamp is searched
 MOST_PIXELS = 256  # of a picture: those whose error is largest
 SMALL = 16  # pixels: a lamp that is not larger may have been met by no sample at all
+TINY = 4.0  # pixels: the box around a lamp that few rays from the camera meet
 LARGE = 1 << 18  # pixels: the rim of a larger lamp does not carry the error in single pixels
 STEPS = 24  # rays along each side of the part of a pixel that may show a lamp
 MORE_STEPS = 96  # where few of them meet it
@@ -90,6 +91,19 @@ def seen_lamps(scene: Scene, settings: Settings, radiance: Pixels, stderr: Pixel
     rows, columns, light, share = zip(*kept, strict=True)
     return _next_to(
         np.array(rows), np.array(columns), np.array(light), np.array(share), radiance, stderr
+    )
+
+
+def has_tiny_lamp(scene: Scene, settings: Settings) -> bool:
+    """Whether a lamp within the frame covers at most TINY pixels, whatever stands before it."""
+    frame = _frame(scene.camera, settings)
+    boxes = (_box(frame, shape) for shape in scene.visible if _shines(scene, shape))
+    return any(
+        np.prod(box.high - box.low) <= TINY
+        and (box.high > 0).all()
+        and (box.low < frame.size).all()
+        for box in boxes
+        if box
     )
 
 

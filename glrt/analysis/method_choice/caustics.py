@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from glrt.analysis.method_choice.work import counting, work_per_sample
 from glrt.analysis.variants import LINKED
 from glrt.error.estimate import relative_error
+from glrt.error.seen_lamps import has_tiny_lamp
 from glrt.gpu.context import Context
 from glrt.image.image import Image, Pixels
 from glrt.plan.facts import SceneFacts
@@ -39,7 +40,7 @@ SAMPLES = 64  # per pixel: four observations with blocks of 16
 LEAST = 128  # a render is worth a pilot if it takes so many times the samples of a pilot's picture
 SEED = 0x43415553  # the same for every render, so that equal renders decide alike
 GAIN = 1.15  # times as efficient, at least: variances and work are estimates
-HOPELESS = 0.9  # times as efficient: where the first choice is not, the others are not tried
+HOPELESS = 0.9  # times as efficient: where the first choice is not, only links are tried then
 CERTAIN = 5.0  # standard errors of the mean of a frame or tile, beyond which two differ
 TILE = 8  # pixels on a side: about the size of a caustic in the small frame
 NEAR = 0.85  # of the best gain suffices: later CHOICES find more light that a pilot has not seen
@@ -78,13 +79,14 @@ class Finding(NamedTuple):
 def may_gain(scene: Scene, settings: Settings) -> bool:
     """Whether a pilot is worth its work: for a long render in which particles can be followed.
 
-    The scene needs glass, or metal that is not too rough, since particles are for their caustics.
+    The scene needs glass or metal that is not too rough, for its caustics, or a tiny lamp in view.
     """
     facts = SceneFacts(scene)
+    focuses = any(map(makes_caustics, facts.materials.values()))
     return (
         not scene.is_blurred  # particles do not go with an open shutter
         and _pilot_of(settings, settings.samples) > 0
-        and any(map(makes_caustics, facts.materials.values()))
+        and (focuses or has_tiny_lamp(scene, settings))
         and refusal(facts, settings_for(settings, caustics="on")) is None
     )
 
@@ -118,10 +120,10 @@ def particles_worth(
             pixels, plain = enough, _picture(scene, without, context, enough)
     found: list[Finding] = []
     for choice in _choices(given, SceneFacts(scene).particles.links != 0, is_short=pixels == SHORT):
+        if found and found[0].gain < HOPELESS and not choice["linked"]:
+            continue
         wanted = settings_for(settings, caustics="on", **choice)
         found.append(Finding(wanted, _gain(scene, wanted, plain, context, pixels)))
-        if found[-1].gain < HOPELESS:
-            break
     most = max(finding.gain for finding in found)
     good = [finding for finding in found if finding.gain >= max(NEAR * most, GAIN)]
     return good[-1] if good else Finding(without, most)
