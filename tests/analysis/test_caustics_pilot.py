@@ -279,29 +279,3 @@ def test_a_small_sun_in_an_image_of_the_sky_gets_particles(context: Context) -> 
     even = particles_worth(even_sky(), settings, context)
     assert even
     assert even.settings.caustics == "off"
-
-
-@pytest.mark.parametrize(
-    ("radius", "place", "expected"),
-    [(0.002, 0.0, True), (0.5, 0.0, False), (0.002, 2.5, False), (0.002, -9.0, False)],
-)
-def test_a_tiny_lamp_in_view_is_worth_a_pilot(radius: float, place: float, expected: bool) -> None:
-    """In a matte scene: not a large one, nor one out of the frame or behind the camera."""
-    center = [place, 0, 9] if place < 0 else [place, 0, -4]
-    things = [sphere(center, radius, "lamp"), plane([0, -1, 0], [0, 1, 0], "matte")]
-    camera = {"position": [0, 0, 0], "look_at": [0, 0, -1], "fov": 40}
-    scene = scene_of(things, {"lamp": lamp(5.0), "matte": MATTE}, camera)
-    settings = settings_for(scene.render, width=64, height=64, samples=1 << 20)
-    assert may_gain(scene, settings) == expected
-
-
-@pytest.mark.slow
-def test_a_tiny_lamp_in_view_gets_particles(context: Context) -> None:
-    things = [sphere([0, 0, -4], 0.01, "lamp"), plane([0, -1, 0], [0, 1, 0], "matte")]
-    camera = {"position": [0, 0, 0], "look_at": [0, 0, -1], "fov": 40}
-    scene = scene_of(things, {"lamp": lamp(5e4), "matte": MATTE}, camera)
-    found = particles_worth(
-        scene, settings_for(scene.render, width=64, height=64, samples=1 << 20), context
-    )
-    assert found
-    assert (found.settings.caustics, found.gain > 3) == ("on", True)
