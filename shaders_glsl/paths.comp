@@ -167,7 +167,7 @@ void replay_particle() {
     here.pdf = particle.emission;
     bool is_linked = lane / PARTICLE_GROUP < frame.linked_groups;
     Sampler of_links = rng;
-    if (LINKS_LAMPS) link_lamp(particle, is_linked, of_links);
+    if (LINKS_LIGHTS) link_light(particle, is_linked, of_links);
     if (particle.power != vec3(0.0)) while (extend_particle(particle, is_linked, rng)) {}
     write_vertex();
     if (loop_was_cut) atomicAdd(lost_samples, 1u);

@@ -91,11 +91,11 @@ def rounds_for_particles(plan: Plan) -> int:
     far = (plan.scene.sun is not None) + particles.sky_sends
     balls = spheres * bool(particles.casters) + len(particles.targets) + bool(particles.targets)
     weighed = (1 + far + bool(particles.lamps)) * balls if settings.aimed else 0
-    weighed += bool(far) * (1 + plan.facts.shapes["plane"])
+    begun = bool(far) * (1 + plan.facts.shapes["plane"])  # before the planes on its way
     search = rounds_of_search(plan.facts)
     links = 2 + LINK_ROUNDS + spheres + 2 * search if settings.linked and particles.links else 0
-    start = 3 + plan.facts.clusters + 2 * balls + search if particles.lamps else 0
-    return (settings.bounces + 1) * (weighed + links) + start + bool(start) * links
+    start = 3 + plan.facts.clusters + 2 * balls + search + begun
+    return (settings.bounces + 1) * (weighed + begun + links) + start + links
 
 
 def rounds_for_reuse(plan: Plan) -> int:

@@ -104,28 +104,48 @@ struct Through {
     vec2 place;      // on the film
 };
 
-// Draws a way from a point to the eye at random; false where there is none. `events`: how often a path is scattered
-// from the lamp to this point, and there.
-bool draw_link(vec3 from, int events, Eye eye, inout Sampler rng, out Through link) {
+// The sphere and the numbers that draw a way.
+struct Draw {
+    int sphere;
+    Material material;
+    int chords;
+    float by_branch;
+};
+
+Draw draw_sphere(inout Sampler rng) {
     vec2 pick = next_2d(rng);
     float by_branch = next_1d(rng);
     int count = bitCount(LINKED);
-    link.sphere = sphere_of(LINKED, min(int(pick.x * float(count)), count - 1));
-    Sphere sphere = sphere_at(link.sphere);
-    link.material = material_at(sphere.material);
-    int chords = draw_chords(link.material, pick.y);
-    link.arc = arc_of(eye.position, from, sphere, link.material.ior, chords);
-    if (events + 1 + chords > frame.bounces || !has_links(link.arc)) return false;
-    Branch branch = draw_branch(link.arc, by_branch);
-    float half_tangent = meeting_of(link.arc, branch);
+    int index = sphere_of(LINKED, min(int(pick.x * float(count)), count - 1));
+    Material material = material_at(sphere_at(index).material);
+    return Draw(index, material, draw_chords(material, pick.y), by_branch);
+}
+
+// Finds the way along an arc; false where there is none. `events`: how often a path is scattered from the lamp to the
+// point that is linked, and there. Leaves out direction and distance.
+bool find_link(Draw drawn, Arc arc, int events, Eye eye, out Through link) {
+    link.sphere = drawn.sphere;
+    link.material = drawn.material;
+    link.arc = arc;
+    if (events + 1 + drawn.chords > frame.bounces || !has_links(arc)) return false;
+    Branch branch = draw_branch(arc, drawn.by_branch);
+    float half_tangent = meeting_of(arc, branch);
     if (half_tangent < 0.0) return false;
-    link.at = crossing_of(link.arc, incidence_of(half_tangent).sine);
-    link.way = way_of(link.arc, sphere.center, link.at, sense_of(branch, chords));
+    link.at = crossing_of(arc, incidence_of(half_tangent).sine);
+    link.way = way_of(arc, sphere_at(drawn.sphere).center, link.at, sense_of(branch, drawn.chords));
+    link.place = place_on_film(link.way.direction, eye.lens);
+    return dot(link.way.direction, frame.camera.forward) > 0.0 && is_on_film(link.place);
+}
+
+// Draws a way from a point to the eye at random; see find_link.
+bool draw_link(vec3 from, int events, Eye eye, inout Sampler rng, out Through link) {
+    Draw drawn = draw_sphere(rng);
+    Arc arc = arc_of(eye.position, from, sphere_at(drawn.sphere), drawn.material.ior, drawn.chords);
+    if (!find_link(drawn, arc, events, eye, link)) return false;
     vec3 away = link.way.far - from;
     link.distance = length(away);
     link.direction = away / link.distance;
-    link.place = place_on_film(link.way.direction, eye.lens);
-    return dot(link.way.direction, frame.camera.forward) > 0.0 && is_on_film(link.place);
+    return true;
 }
 
 // rho of particle_weights.glsl for such a way, times the density of the particles; 0: no link. `cosine`: at the normal
@@ -136,9 +156,9 @@ float rho_of_drawn(Through link, float cosine) {
     return pdf / linked_this_way(link.material, link.arc, link.at);
 }
 
-// Whether something hides the eye along the way; `ray` goes from the point to the sphere.
-bool is_hidden(Through link, Ray ray, Eye eye) {
-    if (occluded(ray, link.distance, link.sphere)) return true;
+// Whether something hides the eye along the way; `ray` goes from the point to the sphere, over `distance`.
+bool is_hidden(Through link, Ray ray, float distance, Eye eye) {
+    if (occluded(ray, distance, link.sphere)) return true;
     vec3 back = eye.position - link.way.near;
     float reach = length(back);
     return occluded(Ray(link.way.near, back / reach, link.sphere, false), reach, link.sphere);
@@ -161,7 +181,7 @@ void link_through_sphere(Particle self, Meeting from, Eye eye, inout Sampler rng
     vec3 flux = self.power * self.path.throughput * tint_of(link.material, link.arc, link.at);
     if (HAS_ATTENUATION) flux *= share_left(wi.z < 0.0 ? from.behind : self.path.absorption, distance);
     vec3 value = flux * turn.value * (frame.particles * rho * weight);
-    if (value == vec3(0.0) || is_hidden(link, ray, eye)) return;
+    if (value == vec3(0.0) || is_hidden(link, ray, link.distance, eye)) return;
     record_link(self.emission, rho, weight);
     splat(link.place, value, layer_of(self, self.path.depth + 2 + link.arc.chords));
 }

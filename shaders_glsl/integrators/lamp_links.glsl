@@ -1,6 +1,5 @@
-// Links of lamps to the camera, from the points where particles leave them: straight, or through one sphere. This
-// light meets no rough surface, and nothing absorbs it, since no lamp is in tinted glass. `splat` takes the value that
-// a link brings.
+// Links of lights to the camera, from where particles begin: straight, or through one sphere. This light meets no rough
+// surface, and nothing absorbs it, since no light is in tinted glass. `splat` takes the value that a link brings.
 
 // The side of a flat lamp that faces `direction`, whichever side the particle leaves.
 Leaving facing(Particle self, vec3 direction) {
@@ -46,27 +45,64 @@ void link_lamp_through_sphere(Particle self, Eye eye, inout Sampler rng) {
     radiance *= tint_of(link.material, link.arc, link.at);
     vec3 value = radiance * (frame.particles * rho * weight / density);
     Ray ray = Ray(start.position, link.direction, self.path.ray.origin_shape, false);
-    if (value == vec3(0.0) || is_hidden(link, ray, eye)) return;
+    if (value == vec3(0.0) || is_hidden(link, ray, link.distance, eye)) return;
     record_link(density, rho, weight);
     splat(link.place, value, layer_of(self, 1 + link.arc.chords));
 }
 
-// Links the point where a particle left its lamp. `by_spheres`: also through one of the linked spheres.
-void link_lamp(Particle self, bool by_spheres, inout Sampler rng) {
-    if (self.light < 0) return;
+// Adds light from infinity, in the direction `towards`, that reaches the film at a place by a way of the density `rho`.
+void add_from_afar(Particle self, vec3 towards, vec2 place, float rho, float density, vec3 tint, int events) {
+    float weight = weight_of_lamp_link(rho / density);
+    vec3 radiance = HAS_SUN && self.light == SUN_LIGHT ? frame.sun_radiance : background(towards);
+    record_link(density, rho, weight);
+    splat(place, radiance * tint * (frame.particles * rho * weight / density), layer_of(self, events));
+}
+
+// Links the place of the sun or the sky where a particle comes from, straight.
+void link_afar_straight(Particle self, Eye eye) {
+    vec3 towards = -self.path.ray.direction;
+    vec2 place = place_on_film(towards, eye.lens);
+    float density = density_of_afar(self.light, towards);
+    if (dot(towards, frame.camera.forward) <= 0.0 || !is_on_film(place) || density == 0.0) return;
+    if (occluded(Ray(eye.position, towards, NO_SHAPE, false), FAR, NO_SHAPE)) return;
+    add_from_afar(self, towards, place, pdf_camera(towards) / frame.particles, density, vec3(1.0), 0);
+}
+
+// The same through one sphere.
+void link_afar_through_sphere(Particle self, Eye eye, inout Sampler rng) {
+    Through link;
+    vec3 towards = -self.path.ray.direction;
+    Draw drawn = draw_sphere(rng);
+    Arc arc = arc_to_afar(eye.position, towards, sphere_at(drawn.sphere), drawn.material.ior, drawn.chords);
+    if (!find_link(drawn, arc, 0, eye, link)) return;
+    float density = density_of_afar(self.light, towards);
+    float rho = rho_of_drawn(link, 1.0);
+    if (density == 0.0 || rho == 0.0) return;
+    if (is_hidden(link, Ray(link.way.far, towards, link.sphere, false), FAR, eye)) return;
+    vec3 tint = tint_of(link.material, link.arc, link.at);
+    add_from_afar(self, towards, link.place, rho, density, tint, 1 + link.arc.chords);
+}
+
+// Links what a particle leaves. `by_spheres`: also through one of the linked spheres.
+void link_light(Particle self, bool by_spheres, inout Sampler rng) {
     Eye eye = sample_eye(rng);
-    link_lamp_straight(self, eye);
+    bool is_afar = self.light < 0;
+    if (is_afar) link_afar_straight(self, eye);
+    else link_lamp_straight(self, eye);
     int tries = LINKED != 0 && by_spheres ? 1 : 0;  // a loop, as in link_to_camera
-    for (int i = 0; i < tries; ++i) link_lamp_through_sphere(self, eye, rng);
+    for (int i = 0; i < tries; ++i) {
+        if (is_afar) link_afar_through_sphere(self, eye, rng);
+        else link_lamp_through_sphere(self, eye, rng);
+    }
 }
 
 // Links what the particles of one lane leave, before any of them is followed: lanes stay together.
-void link_lamps(int lane, bool by_spheres) {
+void link_lights(int lane, bool by_spheres) {
     int i = 0;
     for (; i < frame.sample_count; ++i) {
         Sampler rng = sampler_at(ivec2(lane, -1), frame.first_sample + i, frame.seed);
         Particle particle = start_particle(rng);
-        link_lamp(particle, by_spheres, rng);
+        link_light(particle, by_spheres, rng);
     }
     note_end(i, frame.sample_count);
 }

@@ -53,12 +53,12 @@ float particle_weight(float over, float kappa) {
     return weight;
 }
 
-// --- lamps that the camera sees, straight or through one smooth sphere ------------------------
+// --- lights that the camera sees, straight or through one smooth sphere -----------------------
 //
-// Two ways find them: a ray from the camera that meets a lamp, and the point on a lamp where a particle leaves, which
-// is linked to the camera (integrators/lamp_links.glsl).
+// Two ways find them: a ray from the camera that meets a light, and the point on a lamp where a particle leaves, or the
+// direction that it comes from, which is linked to the camera (integrators/lamp_links.glsl).
 
-const bool LINKS_LAMPS = HAS_PARTICLES && CLUSTERS > 0 && !HAS_COINCIDENT;
+const bool LINKS_LIGHTS = HAS_PARTICLES && !HAS_COINCIDENT;
 
 // A ray from the camera counts as so many particles. A large lamp is even where rays meet it, and spotted by links.
 const float STEADY = 32.0;
@@ -69,6 +69,14 @@ float density_on_lamp(int lamp, vec3 p, vec3 direction) {
     if (aspect.cosine == 0.0) return 0.0;
     float density = cluster_at(lamp).probability / aspect.area;
     if (SKY_SENDS || HAS_SUN) density *= share_of_lamps();
+    return density;
+}
+
+// Density of the directions in which the sun or the sky is linked, per solid angle.
+float density_of_afar(int light, vec3 towards) {
+    float density = 0.0;
+    if (is_from_sky(light)) density = pdf_sky_direction(towards) * (ONLY_SKY_SENDS ? 1.0 : frame.from_sky);
+    else if (HAS_SUN) density = pdf_sun() * frame.from_sun;
     return density;
 }
 

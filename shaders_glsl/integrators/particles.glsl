@@ -119,7 +119,7 @@ bool extend_particle(inout Particle self, bool by_spheres, inout Sampler rng) {
 // Traces the particles of one lane: as many as a pixel has samples. Returns how many are lost because the driver
 // ended a loop early. One loop runs over the segments of all particles, as in add_samples.
 int add_particles(int lane, bool by_spheres) {
-    if (LINKS_LAMPS) link_lamps(lane, by_spheres);
+    if (LINKS_LIGHTS) link_lights(lane, by_spheres);
     int index = frame.first_sample;
     int end = index + frame.sample_count;
     Sampler rng = sampler_at(ivec2(lane, -1), index, frame.seed);

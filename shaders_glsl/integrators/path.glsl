@@ -75,7 +75,7 @@ float emission_beside_approach(Path path, Ray start, Hit hit, int light) {
 // `emission_weight` of the emission that a segment meets. The segment may have passed holes.
 float weight_of_emission(Path path, Hit hit, Surface surface) {
     int light = surface.light;
-    if (sees_lamps(path) && light != NO_LIGHT) return weight_of_seen_lamp(path, surface);
+    if (sees_lights(path) && light != NO_LIGHT) return weight_of_seen_lamp(path, surface);
     if (HAS_PARTICLES && path.rivals.rho > 0.0 && light != NO_LIGHT) {
         float kappa = 0.0;
         if (path.pdf > 0.0) kappa = pdf_light(light, path.ray, hit.distance, path.lamps) / path.pdf;
@@ -115,6 +115,7 @@ void gather_sampled(inout Path path, Meeting at, LightSample light, int source) 
 
 // The share of the sky's light that scattering may count.
 float sky_weight(Path path) {
+    if (SKY_SENDS && sees_lights(path)) return weight_of_seen_afar(path, SKY_LIGHT);
     if (SKY_SENDS && path.rivals.rho > 0.0) {
         float kappa = SAMPLE_SKY && path.pdf > 0.0 ? pdf_sky(path.ray.direction) / path.pdf : 0.0;
         float share = emission_beside_particles(path.ray, Hit(0.0, NO_SHAPE), SKY_LIGHT, kappa, path.rivals.rho);
@@ -146,7 +147,9 @@ void gather_sun(inout Path path) {
     if (!HAS_SUN || !meets_sun(path.ray.direction)) return;
     vec3 light = path.scale * path.throughput * frame.sun_radiance;
     if (HAS_ATTENUATION) light *= share_left_of_sky(path.absorption);
-    if (HAS_PARTICLES && path.rivals.rho > 0.0) {
+    if (sees_lights(path)) {
+        light *= weight_of_seen_afar(path, SUN_LIGHT);
+    } else if (HAS_PARTICLES && path.rivals.rho > 0.0) {
         float kappa = path.pdf > 0.0 ? pdf_sun() / path.pdf : 0.0;
         float weight = emission_beside_particles(path.ray, Hit(0.0, NO_SHAPE), SUN_LIGHT, kappa, path.rivals.rho);
         record_weight(kappa * path.pdf, weight);

@@ -28,9 +28,9 @@ float path_turn(Path path, Meeting at, vec3 wi, float pdf, bool is_linked) {
     return turn_around(at.vertex.frame[2], at.normals.facing, wi, -path.ray.direction, is_smooth);
 }
 
-// Whether the path sees a lamp, if its next segment meets one: straight, or through one sphere.
-bool sees_lamps(Path path) {
-    return LINKS_LAMPS && (path.depth == 0 || LINKED != 0 && path.rivals.chain.state == LINKING);
+// Whether the path sees a light, if its next segment meets one: straight, or through one sphere.
+bool sees_lights(Path path) {
+    return LINKS_LIGHTS && (path.depth == 0 || LINKED != 0 && path.rivals.chain.state == LINKING);
 }
 
 // Weight of the emission of a lamp that such a segment meets.
@@ -42,6 +42,17 @@ float weight_of_seen_lamp(Path path, Surface surface) {
     if (path.depth > 0) rho = rho_of_link(path.rivals.chain, surface.position, cosine);
     else rho = pdf_film(direction, cosine, length(surface.position - path.ray.origin)) / frame.particles;
     if (density == 0.0 || rho == 0.0) return 1.0;  // nothing is linked so
+    float weight = weight_beside_links(rho / density);
+    record_weight(density, weight);
+    return weight;
+}
+
+// The same for light of the sun or the sky where a segment leaves the scene.
+float weight_of_seen_afar(Path path, int light) {
+    vec3 direction = path.ray.direction;
+    float density = density_of_afar(light, direction);
+    float rho = path.depth > 0 ? rho_of_afar(path.rivals.chain, direction) : pdf_camera(direction) / frame.particles;
+    if (density == 0.0 || rho == 0.0) return 1.0;
     float weight = weight_beside_links(rho / density);
     record_weight(density, weight);
     return weight;

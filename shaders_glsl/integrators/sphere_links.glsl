@@ -40,6 +40,16 @@ Arc arc_of(vec3 eye, vec3 vertex, Sphere sphere, float ior, int chords) {
     return Arc(to_eye, to_vertex, ratios, sphere.radius, cosine, sine, chords);
 }
 
+// The same for a vertex at infinity, in the direction `towards`: the sun, or a place of the sky.
+Arc arc_to_afar(vec3 eye, vec3 towards, Sphere sphere, float ior, int chords) {
+    vec3 u = eye - sphere.center;
+    float inverse = 1.0 / length(u);
+    vec3 to_eye = u * inverse;
+    float inside = chords > 0 ? 1.0 / ior : 0.0;
+    vec3 ratios = vec3(sphere.radius * inverse, 0.0, inside);
+    return Arc(to_eye, towards, ratios, sphere.radius, dot(to_eye, towards), length(cross(to_eye, towards)), chords);
+}
+
 float first_slope(Arc arc) {
     float slope = 2.0 - arc.ratios.x - arc.ratios.y - 2.0 * float(arc.chords) * arc.ratios.z;
     return slope;
@@ -153,12 +163,13 @@ Crossing crossing_of(Arc arc, float sine) {
     return Crossing(cosines, sine, cosine, slope_of(arc, cosines, cosine));
 }
 
-// Solid angle at the eye over area at the vertex, across the ray; 0: no link.
+// Solid angle at the eye over area at the vertex, across the ray, or over solid angle if the vertex is at infinity; 0: no
+// link.
 float spread_of(Arc arc, Crossing at) {
     float over = at.cosines.x * at.cosines.y * arc.sine * abs(at.slope);
     bool is_finite_there = over > 0.0 && over < FAR;  // false where a way leaves along the sphere
     if (!is_finite_there || abs(at.slope) < FLAT || !has_links(arc)) return 0.0;
-    float across = arc.ratios.x * arc.ratios.y / arc.radius;
+    float across = arc.ratios.y > 0.0 ? arc.ratios.x * arc.ratios.y / arc.radius : arc.ratios.x;
     float spread = across * across * at.sine * at.cosine / over;
     return spread;
 }
@@ -261,13 +272,23 @@ void follow_chain(inout Chain chain, int shape, Vertex vertex, bool crosses) {
     }
 }
 
+float rho_along(Chain chain, Material material, Arc arc, float cosine) {
+    Crossing at = crossing_of(arc, chain.sine);
+    float rho = pdf_of_way(chain.film, material, arc, at, cosine) / linked_this_way(material, arc, at);
+    return rho;
+}
+
 // rho that particles linked through a sphere are weighed against, at a vertex; `cosine`: at its normal.
 float rho_of_link(Chain chain, vec3 position, float cosine) {
     if (chain.state != LINKING) return 0.0;
     Sphere sphere = sphere_at(chain.sphere);
     Material material = material_at(sphere.material);
-    Arc arc = arc_of(chain.eye, position, sphere, material.ior, chain.chords);
-    Crossing at = crossing_of(arc, chain.sine);
-    float rho = pdf_of_way(chain.film, material, arc, at, cosine) / linked_this_way(material, arc, at);
-    return rho;
+    return rho_along(chain, material, arc_of(chain.eye, position, sphere, material.ior, chain.chords), cosine);
+}
+
+// The same for light from infinity, in the direction `towards`, per solid angle.
+float rho_of_afar(Chain chain, vec3 towards) {
+    Sphere sphere = sphere_at(chain.sphere);
+    Material material = material_at(sphere.material);
+    return rho_along(chain, material, arc_to_afar(chain.eye, towards, sphere, material.ior, chain.chords), 1.0);
 }

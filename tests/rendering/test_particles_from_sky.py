@@ -211,14 +211,15 @@ def test_a_sky_with_a_bright_spot_sends_particles_next_to_a_lamp(
 
 
 @pytest.mark.parametrize(
-    ("name", "weighed", "start"), [("image", 2, 0), ("image, a lamp and the sun", 4, 19)]
+    ("name", "weighed", "start"), [("image", 2, 16), ("image, a lamp and the sun", 4, 20)]
 )
 def test_each_kind_of_light_is_weighed_in_the_limit_of_loops(
     name: str, weighed: int, start: int
 ) -> None:
     """Against the spheres and the line of a particle from afar, at each vertex.
 
-    A lamp is linked to the camera: one to choose, two searches for a target, and a shadow.
+    Each particle is linked to the camera first: a lamp to choose, two searches for a target, the
+    planes on its way, and a shadow.
     """
     settings = Settings(caustics="on", aimed=0.5, linked=0.0, bounces=3)
     spheres = 1 if weighed == 2 else 2
