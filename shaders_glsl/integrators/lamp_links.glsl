@@ -86,7 +86,7 @@ void link_afar_through_sphere(Particle self, Eye eye, inout Sampler rng) {
 // Links what a particle leaves. `by_spheres`: also through one of the linked spheres.
 void link_light(Particle self, bool by_spheres, inout Sampler rng) {
     Eye eye = sample_eye(rng);
-    bool is_afar = self.light < 0;
+    bool is_afar = (HAS_SUN || SKY_SENDS) && (CLUSTERS == 0 || self.light < 0);
     if (is_afar) link_afar_straight(self, eye);
     else link_lamp_straight(self, eye);
     int tries = LINKED != 0 && by_spheres ? 1 : 0;  // a loop, as in link_to_camera
