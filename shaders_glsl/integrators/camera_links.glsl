@@ -94,7 +94,7 @@ Way way_of(Arc arc, vec3 center, Crossing at, float sense) {
 
 // A way to the eye through one sphere.
 struct Through {
-    int sphere;
+    int sphere;      // NO_SHAPE: there is no way
     Material material;
     Arc arc;
     Crossing at;
@@ -121,31 +121,32 @@ Draw draw_sphere(inout Sampler rng) {
     return Draw(index, material, draw_chords(material, pick.y), by_branch);
 }
 
-// Finds the way along an arc; false where there is none. `events`: how often a path is scattered from the lamp to the
-// point that is linked, and there. Leaves out direction and distance.
-bool find_link(Draw drawn, Arc arc, int events, Eye eye, out Through link) {
-    link.sphere = drawn.sphere;
-    link.material = drawn.material;
-    link.arc = arc;
-    if (events + 1 + drawn.chords > frame.bounces || !has_links(arc)) return false;
+// Finds the way along an arc, without direction and distance. `events`: how often a path is scattered from the lamp to
+// the point that is linked, and there.
+Through find_link(Draw drawn, Arc arc, int events, Eye eye) {
+    Way nowhere = Way(vec3(0.0), vec3(0.0), vec3(0.0));
+    Crossing never = Crossing(vec3(0.0), 0.0, 0.0, 0.0);
+    Through link = Through(NO_SHAPE, drawn.material, arc, never, nowhere, vec3(0.0), 0.0, vec2(0.0));
+    if (events + 1 + drawn.chords > frame.bounces || !has_links(arc)) return link;
     Branch branch = draw_branch(arc, drawn.by_branch);
     float half_tangent = meeting_of(arc, branch);
-    if (half_tangent < 0.0) return false;
+    if (half_tangent < 0.0) return link;
     link.at = crossing_of(arc, incidence_of(half_tangent).sine);
     link.way = way_of(arc, sphere_at(drawn.sphere).center, link.at, sense_of(branch, drawn.chords));
     link.place = place_on_film(link.way.direction, eye.lens);
-    return dot(link.way.direction, frame.camera.forward) > 0.0 && is_on_film(link.place);
+    if (dot(link.way.direction, frame.camera.forward) > 0.0 && is_on_film(link.place)) link.sphere = drawn.sphere;
+    return link;
 }
 
 // Draws a way from a point to the eye at random; see find_link.
-bool draw_link(vec3 from, int events, Eye eye, inout Sampler rng, out Through link) {
+Through draw_link(vec3 from, int events, Eye eye, inout Sampler rng) {
     Draw drawn = draw_sphere(rng);
     Arc arc = arc_of(eye.position, from, sphere_at(drawn.sphere), drawn.material.ior, drawn.chords);
-    if (!find_link(drawn, arc, events, eye, link)) return false;
+    Through link = find_link(drawn, arc, events, eye);
     vec3 away = link.way.far - from;
     link.distance = length(away);
     link.direction = away / link.distance;
-    return true;
+    return link;
 }
 
 // rho of particle_weights.glsl for such a way, times the density of the particles; 0: no link. `cosine`: at the normal
@@ -153,7 +154,8 @@ bool draw_link(vec3 from, int events, Eye eye, inout Sampler rng, out Through li
 float rho_of_drawn(Through link, float cosine) {
     float film = pdf_camera(link.way.direction);
     float pdf = pdf_of_way(film, link.material, link.arc, link.at, cosine);
-    return pdf / linked_this_way(link.material, link.arc, link.at);
+    float rho = pdf / linked_this_way(link.material, link.arc, link.at);
+    return rho;
 }
 
 // Whether something hides the eye along the way; `ray` goes from the point to the sphere, over `distance`.
@@ -166,9 +168,9 @@ bool is_hidden(Through link, Ray ray, float distance, Eye eye) {
 
 // Links a particle to the eye through one sphere, by one way drawn at random, and adds the light.
 void link_through_sphere(Particle self, Meeting from, Eye eye, inout Sampler rng) {
-    Through link;
     Ray ray = from.ray;
-    if (!draw_link(ray.origin, self.path.depth + 1, eye, rng, link)) return;
+    Through link = draw_link(ray.origin, self.path.depth + 1, eye, rng);
+    if (link.sphere == NO_SHAPE) return;
     ray.direction = link.direction;
     vec3 wi = to_local(from.vertex.frame, ray.direction);
     if (!leaves_so(from.vertex, wi, ray)) return;

@@ -32,8 +32,8 @@ void link_lamp_straight(Particle self, Eye eye) {
 
 // Links the point to the eye through one sphere, by one way drawn at random.
 void link_lamp_through_sphere(Particle self, Eye eye, inout Sampler rng) {
-    Through link;
-    if (!draw_link(self.start.position, 0, eye, rng, link)) return;
+    Through link = draw_link(self.start.position, 0, eye, rng);
+    if (link.sphere == NO_SHAPE) return;
     Leaving start = facing(self, link.direction);
     float cosine = dot(link.direction, start.normal);
     if (cosine <= 0.0) return;
@@ -70,11 +70,11 @@ void link_afar_straight(Particle self, Eye eye) {
 
 // The same through one sphere.
 void link_afar_through_sphere(Particle self, Eye eye, inout Sampler rng) {
-    Through link;
     vec3 towards = -self.path.ray.direction;
     Draw drawn = draw_sphere(rng);
     Arc arc = arc_to_afar(eye.position, towards, sphere_at(drawn.sphere), drawn.material.ior, drawn.chords);
-    if (!find_link(drawn, arc, 0, eye, link)) return;
+    Through link = find_link(drawn, arc, 0, eye);
+    if (link.sphere == NO_SHAPE) return;
     float density = density_of_afar(self.light, towards);
     float rho = rho_of_drawn(link, 1.0);
     if (density == 0.0 || rho == 0.0) return;

@@ -81,5 +81,12 @@ float density_of_afar(int light, vec3 towards) {
 }
 
 // Weights of such a link, and of a ray that meets the lamp; `over`: the density of rays over that of links.
-float weight_of_lamp_link(float over) { return particle_weight(STEADY * over, 0.0); }
-float weight_beside_links(float over) { return particle_weight(1.0 / (STEADY * over), 0.0); }
+float weight_of_lamp_link(float over) {
+    float weighted = STEADY * over;
+    return particle_weight(weighted, 0.0);
+}
+
+float weight_beside_links(float over) {
+    float weighted = 1.0 / (STEADY * over);
+    return particle_weight(weighted, 0.0);
+}
