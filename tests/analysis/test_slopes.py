@@ -51,7 +51,7 @@ def measure_alone(
 
 def slopes_of(curves: tuple[Curve, ...]) -> list[Interval]:
     """The slopes of unbiased variants, independent numbers, not denoised, over three decades."""
-    others = "sobol", "denoised"
+    others = "sobol", "shared", "denoised"  # shared numbers are points of Sobol'
     plain = [c for c in curves if not c.is_biased and not any(o in c.name for o in others)]
     assert {c.points[-1].samples for c in plain} == {1024}
     slopes = [c.slope for c in plain if c.slope is not None]

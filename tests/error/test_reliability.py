@@ -185,12 +185,12 @@ def test_the_command_warns_with_and_without_a_wanted_error(tmp_path: Path) -> No
         assert done.returncode == 0, done.stderr
         return done.stderr, json.loads(done.stdout)["error_doubtful"] if done.stdout else None
 
-    for limit in (("--error", "0.2"), ("--samples", "64")):
+    for limit in (("--error", "0.3"), ("--samples", "64")):
         text, is_told = told("caustic.toml", "--json", *limit)
         assert "caution: the estimated error, " in text
         assert "is not to be believed" in text
         assert is_told is True
-    text, is_told = told("caustic.toml", "--quiet", "--error", "0.2")
+    text, is_told = told("caustic.toml", "--quiet", "--error", "0.3")
     assert "caution: the estimated error, " in text
     assert len(text.splitlines()) == 1
     assert is_told is None
