@@ -59,7 +59,7 @@ void splat(vec2 place, vec3 radiance, int layer) {
 
 #include "integrators/particle_start.glsl"
 #include "integrators/camera_links.glsl"
-#include "integrators/lamp_links.glsl"
+#include "integrators/light_links.glsl"
 #include "integrators/particles.glsl"
 
 void main() {

@@ -103,7 +103,8 @@ void record_light(int strategy, int object, float pdf, vec3 radiance, vec3 added
     begin_light();
 }
 
-void record_link(float pdf, float other_pdf, float weight) {
+void record_link(vec3 radiance, float pdf, float other_pdf, float weight) {
+    light_here.radiance = radiance;
     light_here.pdf = pdf;
     record_weight(other_pdf, weight);
 }
@@ -114,8 +115,7 @@ void record_end(int reason) { end_reason = reason; }
 
 const int PARTICLE_GROUP = 64;  // particles, as in particles.comp
 
-int lamp = 0;                        // object that the particle comes from
-vec3 shining = vec3(0.0);    // its radiance there
+int lamp = 0;  // object that the particle comes from
 
 // Adds this pixel's share of the light that a particle brings to the frame: a mean over the particles of a sample.
 void splat(vec2 film, vec3 radiance, int layer) {
@@ -124,12 +124,12 @@ void splat(vec2 film, vec3 radiance, int layer) {
         return;
     }
     vec3 added = radiance / frame.particles;
-    record_light(BY_PARTICLE, lamp, light_here.pdf, shining, added);
+    record_light(BY_PARTICLE, lamp, light_here.pdf, light_here.radiance, added);
 }
 
 #include "integrators/particle_start.glsl"
 #include "integrators/camera_links.glsl"
-#include "integrators/lamp_links.glsl"
+#include "integrators/light_links.glsl"
 #include "integrators/particles.glsl"
 
 vec3 lamp_normal(Light light, vec3 position) {
@@ -160,7 +160,6 @@ void replay_particle() {
         normal = lamp_normal(light_at(particle.light), ray.origin);
         lamp = object_number(light_at(particle.light).shape);
     }
-    shining = particle.power * (particle.emission / PI);
     record_vertex(ray.origin, normal, normal, lamp, 0.0, particle.path.throughput);
     here.event = EVENT_SENT;
     here.direction = ray.direction;

@@ -1,7 +1,7 @@
 """Particles: caustics of lamps, glasses, numbers of balls and cameras of any kind."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -54,16 +54,9 @@ def in_view(lab: Lab) -> Sweep:
         for name, way in WAYS.items():
             image = lab.render(scene, samples, **SETTINGS, **way)
             errors[name].append(abs(float(image.radiance.mean(dtype=float)) - 1))
-    first, *_ = WAYS
-    return Sweep(
-        parameter="area of the lamp over that of the picture",
-        measure="relative error of the picture's mean after 64 samples",
-        x=list(shares),
-        chosen=(first, errors.pop(first)),
-        others=errors,
-        promise=f"at most {SEEN:g} everywhere",
-        bound=[SEEN] * len(shares),
-    )
+    parameter = "area of the lamp over that of the picture"
+    sweep = _sweep(parameter, shares, errors, SEEN)
+    return replace(sweep, measure="relative error of the picture's mean after 64 samples")
 
 
 def ground(lab: Lab) -> Sweep:
@@ -138,15 +131,23 @@ def _errors(
         for name, way in ways.items():
             image = lab.render(scene, samples, **SETTINGS, **way)
             errors[name].append(relative_error(truth, image.radiance - truth) or 0.0)
+    promise = f"at most {most:g} everywhere, and no light is cut"
+    return replace(_sweep(parameter, scenes, errors, most), promise=promise, wrong=wrong)
+
+
+def _sweep(
+    parameter: str, x: Iterable[float], errors: Mapping[str, list[float]], most: float
+) -> Sweep:
+    """Errors of ways by `parameter`; those of the first way are at most `most`."""
+    (first, chosen), *others = errors.items()
     return Sweep(
         parameter=parameter,
         measure="relative RMS error after 64 samples",
-        x=list(scenes),
-        chosen=(first, errors.pop(first)),
-        others=errors,
-        promise=f"at most {most:g} everywhere, and no light is cut",
-        bound=[most] * len(scenes),
-        wrong=wrong,
+        x=list(x),
+        chosen=(first, chosen),
+        others=dict(others),
+        promise=f"at most {most:g} everywhere",
+        bound=[most] * len(chosen),
     )
 
 

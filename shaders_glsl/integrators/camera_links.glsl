@@ -49,6 +49,12 @@ bool leaves_so(Vertex vertex, vec3 wi, inout Ray ray) {
     return wi.z > 0.0 || crosses && scatters_across(vertex.material);
 }
 
+// The radiance of the light in the direction in which the particle left it.
+vec3 radiance_of(Particle self) {
+    vec3 radiance = self.power * (self.emission / PI);
+    return radiance;
+}
+
 // Links a particle straight to the eye and adds the light that it scatters there.
 void link_straight(Particle self, Meeting at, Eye eye) {
     Ray ray = at.ray;
@@ -67,7 +73,7 @@ void link_straight(Particle self, Meeting at, Eye eye) {
     if (HAS_ATTENUATION) flux *= share_left(wi.z < 0.0 ? at.behind : self.path.absorption, distance);
     vec3 value = flux * turn.value * (pdf * weight);
     if (value == vec3(0.0) || occluded(ray, distance, NO_SHAPE)) return;
-    record_link(frame.particles * self.emission, pdf, weight);
+    record_link(radiance_of(self), frame.particles * self.emission, pdf, weight);
     splat(place, value, layer_of(self, self.path.depth + 1));
 }
 
@@ -149,13 +155,9 @@ Through draw_link(vec3 from, int events, Eye eye, inout Sampler rng) {
     return link;
 }
 
-// rho of particle_weights.glsl for such a way, times the density of the particles; 0: no link. `cosine`: at the normal
-// of the point that is linked.
+// `rho_of_way` of such a way; 0: no link. `cosine`: at the normal of the point that is linked.
 float rho_of_drawn(Through link, float cosine) {
-    float film = pdf_camera(link.way.direction);
-    float pdf = pdf_of_way(film, link.material, link.arc, link.at, cosine);
-    float rho = pdf / linked_this_way(link.material, link.arc, link.at);
-    return rho;
+    return rho_of_way(pdf_camera(link.way.direction), link.material, link.arc, link.at, cosine);
 }
 
 // Whether something hides the eye along the way; `ray` goes from the point to the sphere, over `distance`.
@@ -184,7 +186,7 @@ void link_through_sphere(Particle self, Meeting from, Eye eye, inout Sampler rng
     if (HAS_ATTENUATION) flux *= share_left(wi.z < 0.0 ? from.behind : self.path.absorption, distance);
     vec3 value = flux * turn.value * (frame.particles * rho * weight);
     if (value == vec3(0.0) || is_hidden(link, ray, link.distance, eye)) return;
-    record_link(self.emission, rho, weight);
+    record_link(radiance_of(self), self.emission, rho, weight);
     splat(link.place, value, layer_of(self, self.path.depth + 2 + link.arc.chords));
 }
 

@@ -20,8 +20,9 @@ void record_weight(float other_pdf, float weight) {}
 // The light that is recorded next is hidden from the surface where it was sampled.
 void record_shadow() {}
 
-// A particle is linked to the camera there: its density, the density of a path from the camera, and its weight.
-void record_link(float pdf, float other_pdf, float weight) {}
+// A particle is linked to the camera there: the emission that it brings, its density, that of a path from the camera,
+// and its weight.
+void record_link(vec3 radiance, float pdf, float other_pdf, float weight) {}
 
 // The light that is recorded next was sampled at `distance` in this direction.
 void record_sample(vec3 direction, float distance) {}

@@ -56,7 +56,7 @@ float particle_weight(float over, float kappa) {
 // --- lights that the camera sees, straight or through one smooth sphere -----------------------
 //
 // Two ways find them: a ray from the camera that meets a light, and the point on a lamp where a particle leaves, or the
-// direction that it comes from, which is linked to the camera (integrators/lamp_links.glsl).
+// direction that it comes from, which is linked to the camera (integrators/light_links.glsl).
 
 const bool LINKS_LIGHTS = HAS_PARTICLES && !HAS_COINCIDENT;
 
@@ -80,8 +80,8 @@ float density_of_afar(int light, vec3 towards) {
     return density;
 }
 
-// Weights of such a link, and of a ray that meets the lamp; `over`: the density of rays over that of links.
-float weight_of_lamp_link(float over) {
+// Weights of such a link, and of a ray that meets the light; `over`: the density of rays over that of links.
+float weight_of_light_link(float over) {
     float weighted = STEADY * over;
     return particle_weight(weighted, 0.0);
 }

@@ -33,7 +33,15 @@ bool sees_lights(Path path) {
     return LINKS_LIGHTS && (path.depth == 0 || LINKED != 0 && path.rivals.chain.state == LINKING);
 }
 
-// Weight of the emission of a lamp that such a segment meets.
+// Weight of light that such a segment meets. `rho`: of the path; `density`: of the particles that begin there.
+float weight_of_seen(float rho, float density) {
+    if (density == 0.0 || rho == 0.0) return 1.0;  // no particle is linked along this path
+    float weight = weight_beside_links(rho / density);
+    record_weight(density, weight);
+    return weight;
+}
+
+// The same of a lamp.
 float weight_of_seen_lamp(Path path, Surface surface) {
     vec3 direction = path.ray.direction;
     float density = density_on_lamp(surface.light, surface.position, -direction);
@@ -41,19 +49,14 @@ float weight_of_seen_lamp(Path path, Surface surface) {
     float rho = 0.0;
     if (path.depth > 0) rho = rho_of_link(path.rivals.chain, surface.position, cosine);
     else rho = pdf_film(direction, cosine, length(surface.position - path.ray.origin)) / frame.particles;
-    if (density == 0.0 || rho == 0.0) return 1.0;  // nothing is linked so
-    float weight = weight_beside_links(rho / density);
-    record_weight(density, weight);
+    float weight = weight_of_seen(rho, density);
     return weight;
 }
 
-// The same for light of the sun or the sky where a segment leaves the scene.
+// The same of the sun or the sky, where a segment leaves the scene.
 float weight_of_seen_afar(Path path, int light) {
     vec3 direction = path.ray.direction;
-    float density = density_of_afar(light, direction);
     float rho = path.depth > 0 ? rho_of_afar(path.rivals.chain, direction) : pdf_camera(direction) / frame.particles;
-    if (density == 0.0 || rho == 0.0) return 1.0;
-    float weight = weight_beside_links(rho / density);
-    record_weight(density, weight);
+    float weight = weight_of_seen(rho, density_of_afar(light, direction));
     return weight;
 }

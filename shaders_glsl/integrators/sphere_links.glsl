@@ -232,6 +232,12 @@ float linked_this_way(Material material, Arc arc, Crossing at) {
     return count;
 }
 
+// rho of particle_weights.glsl for a way, times the density of the particles; see pdf_of_way.
+float rho_of_way(float film, Material material, Arc arc, Crossing at, float cosine) {
+    float rho = pdf_of_way(film, material, arc, at, cosine) / linked_this_way(material, arc, at);
+    return rho;
+}
+
 // --- the camera's side -----------------------------------------------------------------------
 
 // The smooth spheres that a path from the camera has met before its first vertex that is no delta.
@@ -272,23 +278,19 @@ void follow_chain(inout Chain chain, int shape, Vertex vertex, bool crosses) {
     }
 }
 
-float rho_along(Chain chain, Material material, Arc arc, float cosine) {
-    Crossing at = crossing_of(arc, chain.sine);
-    float rho = pdf_of_way(chain.film, material, arc, at, cosine) / linked_this_way(material, arc, at);
-    return rho;
-}
-
 // rho that particles linked through a sphere are weighed against, at a vertex; `cosine`: at its normal.
 float rho_of_link(Chain chain, vec3 position, float cosine) {
     if (chain.state != LINKING) return 0.0;
     Sphere sphere = sphere_at(chain.sphere);
     Material material = material_at(sphere.material);
-    return rho_along(chain, material, arc_of(chain.eye, position, sphere, material.ior, chain.chords), cosine);
+    Arc arc = arc_of(chain.eye, position, sphere, material.ior, chain.chords);
+    return rho_of_way(chain.film, material, arc, crossing_of(arc, chain.sine), cosine);
 }
 
 // The same for light from infinity, in the direction `towards`, per solid angle.
 float rho_of_afar(Chain chain, vec3 towards) {
     Sphere sphere = sphere_at(chain.sphere);
     Material material = material_at(sphere.material);
-    return rho_along(chain, material, arc_to_afar(chain.eye, towards, sphere, material.ior, chain.chords), 1.0);
+    Arc arc = arc_to_afar(chain.eye, towards, sphere, material.ior, chain.chords);
+    return rho_of_way(chain.film, material, arc, crossing_of(arc, chain.sine), 1.0);
 }

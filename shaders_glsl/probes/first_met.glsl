@@ -23,7 +23,7 @@ void record_passing(int event) { has_met = has_left; }
 void record_survival(float survival) {}
 void record_weight(float other_pdf, float weight) {}
 void record_shadow() {}
-void record_link(float pdf, float other_pdf, float weight) {}
+void record_link(vec3 radiance, float pdf, float other_pdf, float weight) {}
 void record_sample(vec3 direction, float distance) {}
 void record_light(int strategy, int object, float pdf, vec3 radiance, vec3 added) {}
 void record_end(int reason) {}

@@ -49,7 +49,7 @@ def test_every_shader_file_is_compiled_by_a_test() -> None:
         *("terms.comp", "terms.frag", "film/term_pixels.glsl"),
         *("particles.comp", "splats.comp", "integrators/particles.glsl", "film/splat_unit.glsl"),
         *("integrators/particle_start.glsl", "integrators/camera_links.glsl"),
-        "integrators/lamp_links.glsl",
+        "integrators/light_links.glsl",
         *("trace.comp", "adaptive.comp", "paths.comp", "structs/path_records.glsl"),
         *("passes/tiles.glsl", "passes/tonemap.glsl", "sampling/other_hash.glsl"),
         *("raster.glsl", "raster.vert", "raster.frag"),  # by tests/rendering/test_raster.py

@@ -25,6 +25,7 @@ FRAME = 4 * 2.0**2  # area of the picture at a distance of 2
 KINDS: dict[str, dict[str, Any]] = {
     "lamp": {"type": "light", "emission": [8, 4, 2]},
     "spot": lamp(8.0, cone={"axis": [-0.1, -0.5, 1], "inner": 20, "outer": 70}),
+    "beam": lamp(5.0, cone={"axis": [0, 0, 1], "inner": 10, "outer": 12}),
     "m": MATTE,
     "dark": {"type": "lambertian", "color": [0, 0, 0]},
     "glass": glass(),
@@ -172,20 +173,25 @@ def test_links_of_lamps_are_as_long_as_their_paths(context: Context) -> None:
 
 
 @pytest.mark.slow
-def test_a_recorded_particle_shows_the_lamp_that_is_seen(context: Context) -> None:
+@pytest.mark.parametrize("material", ["lamp", "beam"])
+def test_a_recorded_particle_shows_the_lamp_that_is_seen(context: Context, material: str) -> None:
+    """Most particles of a beam leave outside of it and carry nothing, but the camera is in it."""
     thing, area = TINY["quad"]
-    found = replayed(alone(thing), (8, 7), context, samples=8, **ON)
+    scene = alone({**thing, "material": material})
+    found = replayed(scene, (8, 7), context, samples=8, **ON)
     assert found.particles
+    emission = np.array(scene.emission_of(scene.visible[0]))
     radiance = np.array(found.particles.mean)
-    np.testing.assert_allclose(radiance, np.array([8.0, 4.0, 2.0]) * area / FRAME * 256, rtol=0.02)
+    np.testing.assert_allclose(radiance, emission * area / FRAME * 256, rtol=0.02)
     for path in found.particles.paths:
         light = path.contributions[0]
         assert light.vertex == 0
+        assert light.radiance == pytest.approx(tuple(emission))
         assert light.weight == pytest.approx(1, abs=1e-3)
 
 
 def shares(call_glsl: CallGlsl, over: Array) -> Array:
-    weights = "vec2(weight_of_lamp_link(over), weight_beside_links(over))"
+    weights = "vec2(weight_of_light_link(over), weight_beside_links(over))"
     return call_glsl(weights, returns="vec2", scene=scene("quad"), options=ON, over=over)
 
 

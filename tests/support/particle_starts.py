@@ -22,7 +22,7 @@ from tests.support.numerics import Array
 FILES = (
     "integrators/particle_start.glsl",
     "integrators/camera_links.glsl",
-    "integrators/lamp_links.glsl",
+    "integrators/light_links.glsl",
 )
 ON: dict[str, Any] = {"caustics": "on", "linked": 0.0}
 MATERIALS = {"glass": glass(), "lamp": lamp(2.0), "matte": MATTE}

@@ -8,7 +8,15 @@ Leaving facing(Particle self, vec3 direction) {
     return Leaving(start.position, -start.normal, start.material, !start.is_front);
 }
 
-// Links the point straight to the eye.
+// Adds light that reaches the film at a place, by a way of the density `rho`. `emission`: its radiance where it begins;
+// `density`: of the particles there.
+void add_light(Particle self, vec3 emission, vec3 tint, vec2 place, float rho, float density, int events) {
+    float weight = weight_of_light_link(rho / density);
+    record_link(emission, density, rho, weight);
+    splat(place, emission * tint * (frame.particles * rho * weight / density), layer_of(self, events));
+}
+
+// Links the point on a lamp straight to the eye.
 void link_lamp_straight(Particle self, Eye eye) {
     vec3 away = eye.position - self.start.position;
     float distance = length(away);
@@ -18,19 +26,14 @@ void link_lamp_straight(Particle self, Eye eye) {
     if (cosine <= 0.0 || dot(direction, frame.camera.forward) >= 0.0) return;
     vec2 place = place_on_film(-direction, eye.lens);
     float density = density_on_lamp(self.light, start.position, direction);
-    if (density == 0.0 || !is_on_film(place)) return;
-    float seen = pdf_film(-direction, cosine, distance);
-    float linked = frame.particles * density;
-    float weight = weight_of_lamp_link(seen / linked);
-    vec3 radiance = emitted(material_at(start.material), direction, start.is_front);
-    vec3 value = radiance * (frame.particles * seen * weight / linked);
-    Ray ray = Ray(start.position, direction, self.path.ray.origin_shape, false);
-    if (value == vec3(0.0) || occluded(ray, distance, NO_SHAPE)) return;
-    record_link(linked, seen, weight);
-    splat(place, value, layer_of(self, 0));
+    vec3 emission = emitted(material_at(start.material), direction, start.is_front);
+    if (density == 0.0 || emission == vec3(0.0) || !is_on_film(place)) return;
+    if (occluded(Ray(start.position, direction, self.path.ray.origin_shape, false), distance, NO_SHAPE)) return;
+    float rho = pdf_film(-direction, cosine, distance) / frame.particles;
+    add_light(self, emission, vec3(1.0), place, rho, density, 0);
 }
 
-// Links the point to the eye through one sphere, by one way drawn at random.
+// Links it to the eye through one sphere, by one way drawn at random.
 void link_lamp_through_sphere(Particle self, Eye eye, inout Sampler rng) {
     Through link = draw_link(self.start.position, 0, eye, rng);
     if (link.sphere == NO_SHAPE) return;
@@ -39,23 +42,17 @@ void link_lamp_through_sphere(Particle self, Eye eye, inout Sampler rng) {
     if (cosine <= 0.0) return;
     float density = density_on_lamp(self.light, start.position, link.direction);
     float rho = rho_of_drawn(link, cosine);
-    if (density == 0.0 || rho == 0.0) return;
-    float weight = weight_of_lamp_link(rho / density);
-    vec3 radiance = emitted(material_at(start.material), link.direction, start.is_front);
-    radiance *= tint_of(link.material, link.arc, link.at);
-    vec3 value = radiance * (frame.particles * rho * weight / density);
+    vec3 emission = emitted(material_at(start.material), link.direction, start.is_front);
+    if (density == 0.0 || rho == 0.0 || emission == vec3(0.0)) return;
     Ray ray = Ray(start.position, link.direction, self.path.ray.origin_shape, false);
-    if (value == vec3(0.0) || is_hidden(link, ray, link.distance, eye)) return;
-    record_link(density, rho, weight);
-    splat(link.place, value, layer_of(self, 1 + link.arc.chords));
+    if (is_hidden(link, ray, link.distance, eye)) return;
+    vec3 tint = tint_of(link.material, link.arc, link.at);
+    add_light(self, emission, tint, link.place, rho, density, 1 + link.arc.chords);
 }
 
-// Adds light from infinity, in the direction `towards`, that reaches the film at a place by a way of the density `rho`.
-void add_from_afar(Particle self, vec3 towards, vec2 place, float rho, float density, vec3 tint, int events) {
-    float weight = weight_of_lamp_link(rho / density);
-    vec3 radiance = HAS_SUN && self.light == SUN_LIGHT ? frame.sun_radiance : background(towards);
-    record_link(density, rho, weight);
-    splat(place, radiance * tint * (frame.particles * rho * weight / density), layer_of(self, events));
+// Radiance of the sun or the sky in the direction `towards`.
+vec3 emitted_from_afar(int light, vec3 towards) {
+    return HAS_SUN && light == SUN_LIGHT ? frame.sun_radiance : background(towards);
 }
 
 // Links the place of the sun or the sky where a particle comes from, straight.
@@ -65,7 +62,8 @@ void link_afar_straight(Particle self, Eye eye) {
     float density = density_of_afar(self.light, towards);
     if (dot(towards, frame.camera.forward) <= 0.0 || !is_on_film(place) || density == 0.0) return;
     if (occluded(Ray(eye.position, towards, NO_SHAPE, false), FAR, NO_SHAPE)) return;
-    add_from_afar(self, towards, place, pdf_camera(towards) / frame.particles, density, vec3(1.0), 0);
+    vec3 emission = emitted_from_afar(self.light, towards);
+    add_light(self, emission, vec3(1.0), place, pdf_camera(towards) / frame.particles, density, 0);
 }
 
 // The same through one sphere.
@@ -80,7 +78,8 @@ void link_afar_through_sphere(Particle self, Eye eye, inout Sampler rng) {
     if (density == 0.0 || rho == 0.0) return;
     if (is_hidden(link, Ray(link.way.far, towards, link.sphere, false), FAR, eye)) return;
     vec3 tint = tint_of(link.material, link.arc, link.at);
-    add_from_afar(self, towards, link.place, rho, density, tint, 1 + link.arc.chords);
+    vec3 emission = emitted_from_afar(self.light, towards);
+    add_light(self, emission, tint, link.place, rho, density, 1 + link.arc.chords);
 }
 
 // Links what a particle leaves. `by_spheres`: also through one of the linked spheres.
